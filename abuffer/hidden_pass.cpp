@@ -140,8 +140,8 @@ void HiddenPass::sort(TileRows rows) {
     bins_ = OccluderBins(screen_, kernels_, tiles_, threads_, depths ? &*depths : nullptr);
 }
 
-void HiddenPass::composite(Film& film) const {
-    if (frame_.needs.is_transparent) fill_transparent(frame_, screen_, bins_, tiles_, threads_, film);
+void HiddenPass::composite(Film& film, const ShadedSurfaces* shaded) const {
+    if (frame_.needs.is_transparent) fill_transparent(frame_, screen_, shaded, bins_, tiles_, threads_, film);
 }
 
 void HiddenPass::find_parts() {

@@ -12,6 +12,8 @@
 
 namespace burin {
 
+class ShadedSurfaces;
+
 /// What one tile has found.
 struct HidingTileResult {
     std::vector<WholeLine> intersections;
@@ -41,8 +43,9 @@ class HiddenPass {
     void find_lines(TileRows rows, const PossibleLines* possible = nullptr);
     /// Sorts the instances shown to the tiles of these rows, for the lines found.
     void sort(TileRows rows);
-    /// Replaces the surfaces of pixels behind transparent ones, in the rows sorted.
-    void composite(Film& film) const;
+    /// Replaces the surfaces of pixels behind transparent ones, in the rows sorted. `shaded`: of a shading that varies
+    /// over surfaces, else nullptr.
+    void composite(Film& film, const ShadedSurfaces* shaded) const;
     /// Finds what is in front of lines in the rows sorted, and intersections that are missing.
     void find_parts();
     /// Puts what tiles found since the last call into lines() and parts(), in the order of tiles.

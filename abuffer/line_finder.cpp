@@ -10,6 +10,7 @@
 #include "abuffer/visible_pass.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "render/surface_shading.h"
 
 namespace burin {
 namespace {
@@ -34,6 +35,7 @@ class Finder {
           stats_(stats),
           has_cap_(options.memory_bytes > 0),
           screen_(frame.surfaces, frame.criteria, best_kernels(), stats.threads, !has_cap_),
+          shaded_(shaded_surfaces_of(frame, stats.threads)),
           tile_samples_(options.tile_samples > 0 ? options.tile_samples : TileGrid::kTileSamples),
           tiles_(region_around(rect_with_lines(frame), frame.needs.margin_px()),
                  tile_samples_ / samples_per_pixel_of(frame)),
@@ -46,7 +48,7 @@ class Finder {
     }
 
     void run() {
-        VisiblePass visible(frame_, screen_, best_kernels(), stats_.threads, options_.progress);
+        VisiblePass visible(frame_, screen_, shaded_.get(), best_kernels(), stats_.threads, options_.progress);
         find_visible(visible);
         if (frame_.needs.behind()) {
             find_behind(visible.possible_lines());
@@ -58,6 +60,7 @@ class Finder {
             }
         }
         stats_.lines_s += watch_.lap();
+        if (shaded_) note_not_numbers(*shaded_, stats_.notes);
     }
 
   private:
@@ -86,7 +89,7 @@ class Finder {
             show(slice.instances);
             if (!needs_all) pass.find_lines(slice.rows, possible);
             pass.sort(slice.rows);
-            pass.composite(film_);
+            pass.composite(film_, shaded_.get());
             pass.find_parts();
             if (needs_all && !is_last) continue;
             pass.join_results();
@@ -120,6 +123,7 @@ class Finder {
     RenderStats& stats_;
     bool has_cap_;
     ScreenSurfaces screen_;
+    std::unique_ptr<const ShadedSurfaces> shaded_;
     int tile_samples_;
     PixelTiles tiles_;
     SlicePlan plan_;

@@ -71,13 +71,13 @@ class CompleteRows {
 /// A Worker is what one thread of a pass has for tile after tile.
 class VisiblePass::Worker {
   public:
-    Worker(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels, const TriangleBins& bins,
-           const FineEdges* fine_edges, PixelRect region)
+    Worker(const Frame& frame, const ScreenSurfaces& screen, const ShadedSurfaces* shaded, const TileKernels& kernels,
+           const TriangleBins& bins, const FineEdges* fine_edges, PixelRect region)
         : fine_edges_(fine_edges),
           bins_(bins),
           surface_(frame, screen, bins, samples_per_pixel_of(frame), kernels),
           line_tile_(frame, screen, bins, surface_, kernels),
-          filler_(frame, screen, kernels),
+          filler_(frame, screen, kernels, shaded),
           fine_parts_(screen, kernels, completes_lines(frame)),
           needs_beyond_(frame.needs.surfaces_beyond) {
         if (fine_edges_ != nullptr)
@@ -154,8 +154,8 @@ void VisiblePass::draw(PixelRect region, int tile_samples, RowSink* sink, LineDr
     const auto draw_tile = [&](std::size_t tile, int number) {
         std::unique_ptr<Worker>& worker = workers[static_cast<std::size_t>(number)];
         if (!worker) {
-            worker =
-                std::make_unique<Worker>(frame_, screen_, kernels_, bins, has_edges ? &*fine_edges : nullptr, region);
+            worker = std::make_unique<Worker>(frame_, screen_, shaded_, kernels_, bins,
+                                              has_edges ? &*fine_edges : nullptr, region);
         }
         drawing.put_visible(tile, worker->draw(tile, film));
         Stopwatch lap;

@@ -14,12 +14,16 @@
 
 namespace burin {
 
+class ShadedSurfaces;
+
 /// VisiblePass finds what is visible: it fills pixels and finds visible lines, tile by tile, in one or more slices of a
 /// picture.
 class VisiblePass {
   public:
-    VisiblePass(const Frame& frame, ScreenSurfaces& screen, const TileKernels& kernels, int threads, Progress* progress)
-        : frame_(frame), screen_(screen), kernels_(kernels), threads_(threads), progress_(progress) {}
+    /// `shaded`: of a shading that varies over surfaces, else nullptr.
+    VisiblePass(const Frame& frame, ScreenSurfaces& screen, const ShadedSurfaces* shaded, const TileKernels& kernels,
+                int threads, Progress* progress)
+        : frame_(frame), screen_(screen), shaded_(shaded), kernels_(kernels), threads_(threads), progress_(progress) {}
 
     /// Fills the pixels of the tiles of `region` in the film, puts their lines into the drawing, and adds the time it
     /// took. `sink`: is told of rows of tiles that are complete, except for the last one; nullptr: nobody.
@@ -32,6 +36,7 @@ class VisiblePass {
 
     const Frame& frame_;
     ScreenSurfaces& screen_;
+    const ShadedSurfaces* shaded_;
     const TileKernels& kernels_;
     int threads_;
     Progress* progress_;

@@ -21,6 +21,7 @@ SceneForFrame::SceneForFrame(burin_scene& state, const burin_view& view, const O
     scene_.sheet = settings.sheet;
     scene_.line_shaders = state.line_shaders;
     scene_.surfaces = settings.surfaces;
+    scene_.lights = settings.lights;
     scene_.abuffer = settings.abuffer;
     scene_.cameras = !settings.cameras.empty() ? settings.cameras : state.file_cameras;
     scene_.camera_is_default = scene_.cameras.empty();

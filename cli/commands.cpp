@@ -95,6 +95,14 @@ void refuse_sheet(const Scene& scene, const std::string& what) {
     if (scene.sheet) throw UsageError("--style: " + what + "; draw with method abuffer, or remove the style sheet");
 }
 
+/// Refuses a shading that varies over surfaces where a method draws none.
+void refuse_varied_shading(const Scene& scene, const Method& method) {
+    if (!varies(scene.surfaces.shading) || method.name == "abuffer" || method.name == "reference") return;
+    throw UsageError("[surfaces]: method " + std::string(method.name) +
+                     " fills surfaces with paper, lambert or none only; draw with method abuffer or reference, or "
+                     "choose another shading");
+}
+
 /// Notes lines of the input that are not drawn.
 void note_loose_edges(const Frame& frame, const Method& method) {
     std::uint64_t count = 0;
@@ -221,6 +229,7 @@ void run_render(const Arguments& a) {
     StageTimes times;
     Scene scene = load_input(a, outputs);
     if (method.name != "abuffer") refuse_sheet(scene, "method " + std::string(method.name) + " draws no style sheets");
+    refuse_varied_shading(scene, method);
     if (!scene.sheet && (!a.save_lines.empty() || a.finds_all)) {
         throw UsageError((a.save_lines.empty() ? std::string("--find") : std::string("--save-lines")) +
                          ": lines are found for a style sheet; give one with --style");

@@ -198,6 +198,10 @@ std::map<std::string, std::string> metadata_of(const FoundLines& lines, const Ke
     data["fps"] = number(lines.fps);
     data["dpi"] = number(lines.dpi);
     data["crease_angle"] = nlohmann::json{lines.crease_angle_deg[0], lines.crease_angle_deg[1]}.dump();
+    if (const auto& light = lines.scene_light) {
+        data["light"] =
+            nlohmann::json{light->is_at_point ? 1 : 0, light->place.x, light->place.y, light->place.z}.dump();
+    }
     data["smooth_contours"] = lines.has_smooth_contours ? "1" : "0";
     data["filter"] = std::to_string(static_cast<int>(lines.filter));
     if (!surface.pixels.empty()) data["surface_width"] = std::to_string(surface.width);

@@ -129,6 +129,16 @@ class MetadataReader {
         return {list.element(0).number(), list.element(1).number()};
     }
     std::string text(const char* key) const { return data_.at(key).text(); }
+    std::optional<ViewLight> light(const char* key) const {
+        if (!data_.has(key)) return std::nullopt;
+        const JsonPlace list = parsed(key);
+        if (list.size() != 4) list.fail("must be four numbers");
+        const ViewLight light{list.element(0).number() != 0,
+                              {list.element(1).number(), list.element(2).number(), list.element(3).number()}};
+        if (!light.is_at_point && !(std::abs(glm::length(light.place) - 1) < 1e-6))
+            list.fail("the direction must have the length 1");
+        return light;
+    }
 
   private:
     /// Metadata of safetensors are texts; numbers and lists stand in them as JSON.
@@ -167,6 +177,7 @@ void read_picture(const ArrayReader& in, const MetadataReader& data, FoundLines&
     lines.dpi = data.number("dpi");
     if (!(lines.fps > 0) || !(lines.dpi > 0)) in.fail("__metadata__: fps and dpi must be greater than 0");
     lines.crease_angle_deg = data.pair("crease_angle");
+    lines.scene_light = data.light("light");
     lines.has_smooth_contours = data.integer("smooth_contours", 0, 1) == 1;
     lines.filter = static_cast<PixelFilter>(data.integer("filter", 0, static_cast<int>(PixelFilter::mitchell)));
     in.take<double>("camera", 4, 4, [&](std::size_t i, const double* v) {

@@ -12,6 +12,8 @@
 #include "render/frame_reach.h"
 #include "render/sheet_context.h"
 #include "shading/sheet/compiled_sheet.h"
+#include "shading/sheet/style_sheet.h"
+#include "shading/surface/surface_look.h"
 
 namespace burin {
 namespace {
@@ -31,6 +33,16 @@ LineCriteria criteria_of(const LineSettings& lines) {
     return criteria;
 }
 
+std::vector<ViewLight> lights_of(const Frame& frame) {
+    const glm::dmat4 to_view = frame.camera.to_view();
+    std::vector<ViewLight> lights;
+    for (const SceneLight& light : frame.scene->lights) lights.push_back(in_view(light, to_view));
+    if (lights.empty()) lights.push_back(light_at_eye(frame.surfaces.projection));
+    if (frame.scene->sheet && frame.scene->sheet->light)
+        lights.front() = {false, glm::normalize(*frame.scene->sheet->light)};
+    return lights;
+}
+
 Frame make_frame(const Scene& scene, const Camera& camera, int width, int height, PixelRect crop,
                  const PreparedScene* prepared) {
     Frame frame;
@@ -41,6 +53,10 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
     frame.height = height;
     frame.crop = crop;
     if (scene.sheet) frame.sheet = std::make_shared<CompiledSheet>(*scene.sheet, sheet_context_of(frame));
+    if (scene.surfaces.recipe) {
+        frame.surface_look =
+            std::make_shared<SurfaceLook>(scene.surfaces.shading, *scene.surfaces.recipe, sheet_context_of(frame));
+    }
     frame.needs = frame.sheet ? needs_of(scene, frame.sheet->needs()) : needs_of(scene);
     frame.criteria = criteria_of(scene.lines);
 

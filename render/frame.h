@@ -8,11 +8,13 @@
 #include "lines/surface_walk.h"
 #include "render/prepared.h"
 #include "scene/scene.h"
+#include "shading/surface/light.h"
 #include "view/surface_set.h"
 
 namespace burin {
 
 class CompiledSheet;
+struct SurfaceLook;
 
 /// A Frame is a scene seen through one camera: the one input of every method. It borrows the scene and what is prepared
 /// for it, and does not change once it is made.
@@ -27,10 +29,16 @@ struct Frame {
     LineCriteria criteria;
     /// The scene's style sheet, made ready for this picture; nullptr: the scene's line style says how lines look.
     std::shared_ptr<const CompiledSheet> sheet;
+    /// How surfaces look; nullptr: their shading does not vary over them.
+    std::shared_ptr<const SurfaceLook> surface_look;
     DrawingNeeds needs;  ///< what the looks of the scene ask for
 
     const Material& material_of(SurfaceId s) const { return scene->materials[surfaces.material_id(s) - 1]; }
 };
+
+/// The lights of a scene in view space: the key light first, which a style sheet may give; one at the eye if there is
+/// none.
+std::vector<ViewLight> lights_of(const Frame& frame);
 
 /// What the settings of a scene make a line, in all methods.
 LineCriteria criteria_of(const LineSettings& lines);

@@ -67,6 +67,7 @@ FoundLines found_lines(LineDrawing drawing, const Frame& frame, int threads) {
         lines.material_colors.push_back(material.color);
     }
     lines.light = frame.scene->sheet->light;
+    if (!frame.scene->lights.empty()) lines.scene_light = in_view(frame.scene->lights.front(), frame.camera.to_view());
     lines.frame = frame.scene->frame.number;
     lines.fps = frame.scene->frame.fps;
     lines.dpi = frame.scene->picture.dpi;

@@ -53,6 +53,7 @@ class SceneLoader {
         scene_.lines = from_.lines;
         scene_.sheet = from_.sheet;
         scene_.surfaces = from_.surfaces;
+        scene_.lights = from_.lights;
         scene_.abuffer = from_.abuffer;
         scene_.patel = from_.patel;
         scene_.reference = from_.reference;

@@ -14,6 +14,7 @@
 #include "scene/camera.h"
 #include "scene/method_settings.h"
 #include "shading/line_style.h"
+#include "shading/surface/light.h"
 #include "shading/surface_shader.h"
 
 // A scene is what a picture is made of: meshes, objects, materials, cameras and settings; it computes nothing.
@@ -88,6 +89,7 @@ struct Scene {
     /// Beside a sheet: lines are found and known as if it asked for everything, so that any sheet can restyle them.
     bool finds_all = false;
     SurfaceStyle surfaces;
+    std::vector<SceneLight> lights;  ///< the first one is the key light; none: it is at the eye
     AbufferSettings abuffer;
     PatelSettings patel;
     ReferenceSettings reference;

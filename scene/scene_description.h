@@ -41,6 +41,7 @@ struct SceneDescription {
     std::shared_ptr<const StyleSheet> sheet;
     std::vector<std::string> unread_line_keys;  ///< keys of [lines] that nothing reads beside the sheet
     SurfaceStyle surfaces;
+    std::vector<SceneLight> lights;
     AbufferSettings abuffer;
     PatelSettings patel;
     ReferenceSettings reference;

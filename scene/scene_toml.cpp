@@ -17,6 +17,7 @@
 #include "scene/shape_toml.h"
 #include "scene/sheet_library.h"
 #include "scene/sheet_toml.h"
+#include "scene/surfaces_toml.h"
 #include "scene/toml_depth.h"
 #include "scene/toml_reader.h"
 #include "scene/wire_settings_toml.h"
@@ -78,7 +79,8 @@ class SceneReader {
         if (auto t = root_.table("frames")) read_frames(*t);
         if (auto t = root_.table("lines")) scene_.lines = read_line_settings(*t);
         read_style();
-        if (auto t = root_.table("surfaces")) read_surfaces(*t);
+        if (auto t = root_.table("surfaces")) scene_.surfaces = read_surfaces(*t);
+        scene_.lights = read_lights(root_);
         if (auto t = root_.table("abuffer")) read_abuffer(*t);
         if (auto t = root_.table("patel")) read_patel(*t);
         if (auto t = root_.table("reference")) read_reference(*t);
@@ -226,14 +228,6 @@ class SceneReader {
         if (const auto lines = root_.table("lines"))
             scene_.unread_line_keys = keys_beside_sheet(*lines, !wishes_.style.empty());
         use_sheet(scene_, std::make_shared<StyleSheet>(*std::move(sheet)));
-    }
-
-    void read_surfaces(TomlReader& t) {
-        static constexpr SurfaceShading kShadings[] = {SurfaceShading::paper, SurfaceShading::lambert,
-                                                       SurfaceShading::none};
-        scene_.surfaces.shading = kShadings[t.choice("shading", {"paper", "lambert", "none"}).value_or(0)];
-        scene_.surfaces.paper_color = t.color("paper").value_or(glm::vec3(1.0f));
-        t.finish();
     }
 
     void read_abuffer(TomlReader& t) {

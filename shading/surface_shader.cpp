@@ -17,6 +17,12 @@ glm::vec4 surface_color(const SurfaceStyle& style, const Material& material, con
             const float light = static_cast<float>(0.15 + 0.85 * facing);
             return glm::vec4(material.color * light, 1.0f);
         }
+        case SurfaceShading::flat:
+        case SurfaceShading::toon:
+        case SurfaceShading::gooch:
+        case SurfaceShading::hatch:
+        case SurfaceShading::expression:
+            return glm::vec4(material.color, 1.0f);
     }
     return glm::vec4(0.0f);
 }

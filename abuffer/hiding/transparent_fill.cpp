@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "abuffer/edges/occluder.h"
 #include "abuffer/samples/sample_tile.h"
 #include "abuffer/screen/sampling.h"
 #include "base/parallel.h"
 #include "kernels/tile_kernels.h"
+#include "shading/surface/fragment_shader.h"
 #include "shading/surface_shader.h"
 #include "view/scan_convert.h"
 
@@ -34,8 +36,11 @@ struct PlacedPolygon {
 
 class TransparentTile {
   public:
-    TransparentTile(const Frame& frame, const ScreenSurfaces& screen, const OccluderBins& bins, const PixelTiles& grid)
-        : frame_(frame), screen_(screen), bins_(bins), grid_(grid), kernels_(best_kernels()) {}
+    TransparentTile(const Frame& frame, const ScreenSurfaces& screen, const ShadedSurfaces* shaded,
+                    const OccluderBins& bins, const PixelTiles& grid)
+        : frame_(frame), screen_(screen), bins_(bins), grid_(grid), kernels_(best_kernels()) {
+        if (shaded != nullptr) shader_.emplace(*shaded);
+    }
 
     void fill(std::size_t tile, Film& film) {
         const auto numbers = bins_.triangles(tile);
@@ -148,6 +153,7 @@ class TransparentTile {
         const int s = samples_.samples_per_pixel;
         // Where each row of pixels begins in transparent_; sorted by sample, so rows of samples follow each other.
         for (int y = std::max(rect_.y0, frame_.crop.y0); y < std::min(rect_.y1, frame_.crop.y1); ++y) {
+            if (shader_) shade_row(y);
             for (int x = std::max(rect_.x0, frame_.crop.x0); x < std::min(rect_.x1, frame_.crop.x1); ++x) {
                 glm::vec4 sum(0.0f);
                 bool any = false;
@@ -163,8 +169,7 @@ class TransparentTile {
     }
 
     glm::vec4 sample_color(std::uint32_t sample, int x, int y, bool& any) {
-        auto at = std::lower_bound(transparent_.begin(), transparent_.end(), sample,
-                                   [](const TransparentSample& l, std::uint32_t i) { return l.sample < i; });
+        auto at = first_at(sample);
         glm::vec4 color(0.0f);
         float left = 1;
         for (; at != transparent_.end() && at->sample == sample; ++at) {
@@ -178,8 +183,76 @@ class TransparentTile {
         return color;
     }
 
+    /// The first transparent triangle at a sample or behind it.
+    std::vector<TransparentSample>::const_iterator first_at(std::uint32_t sample) const {
+        return std::lower_bound(transparent_.begin(), transparent_.end(), sample,
+                                [](const TransparentSample& l, std::uint32_t i) { return l.sample < i; });
+    }
+
+    /// Calls visit(x, number, column, row) for all surfaces that are seen at samples of a row of pixels, pixel by
+    /// pixel, where any is transparent.
+    template <typename Visit>
+    void for_surfaces(int y, const Visit& visit) const {
+        const int s = samples_.samples_per_pixel;
+        const int first_row = (y - rect_.y0) * s;
+        const auto sample_at = [&](int column, int row) {
+            return static_cast<std::uint32_t>(row * samples_.stride + column);
+        };
+        for (int x = std::max(rect_.x0, frame_.crop.x0); x < std::min(rect_.x1, frame_.crop.x1); ++x) {
+            const int first_column = (x - rect_.x0) * s;
+            bool any = false;
+            for (int row = first_row; row < first_row + s && !any; ++row) {
+                const auto at = first_at(sample_at(first_column, row));
+                any = at != transparent_.end() && at->sample < sample_at(first_column + s, row);
+            }
+            for (int i = 0; any && i < s * s; ++i) {
+                const int column = first_column + i % s, row = first_row + i / s;
+                const std::uint32_t sample = sample_at(column, row);
+                for (auto at = first_at(sample); at != transparent_.end() && at->sample == sample; ++at)
+                    visit(x, at->number, column, row);
+                const std::uint32_t id = samples_.ids[sample];
+                if (id != SampleTile::kBackground) visit(x, id >> 1, column, row);
+            }
+        }
+    }
+
+    /// Shades what is seen in a row of pixels, each surface once in a pixel, in the middle of its samples there.
+    void shade_row(int y) {
+        row_.clear();
+        for_surfaces(y, [&](int x, std::uint32_t number, int column, int row) {
+            auto own = std::find_if(row_.rbegin(), row_.rend(),
+                                    [&](const Found& f) { return f.x != x || f.number == number; });
+            if (own == row_.rend() || own->x != x) {
+                row_.push_back({x, number, 0, 0, 0});
+                own = row_.rbegin();
+            }
+            ++own->count;
+            own->columns += column;
+            own->rows += row;
+        });
+        fragments_.clear();
+        const double s = samples_.samples_per_pixel;
+        for (const Found& f : row_) {
+            const double count = f.count;
+            fragments_.push_back({screen_.surface_of(f.number),
+                                  {(samples_.first_column + f.columns / count + 0.5) / s,
+                                   (samples_.first_row + f.rows / count + 0.5) / s}});
+        }
+        colors_.resize(fragments_.size());
+        shader_->shade(fragments_, colors_.data());
+    }
+
+    glm::vec4 shaded_color(std::uint32_t number, int x) const {
+        auto found = std::lower_bound(row_.begin(), row_.end(), x, [](const Found& f, int at) { return f.x < at; });
+        while (found != row_.end() && found->x == x && found->number != number) ++found;
+        // In a pixel without transparent surfaces nothing is replaced.
+        if (found == row_.end() || found->x != x) return glm::vec4(0.0f);
+        return glm::vec4(colors_[static_cast<std::size_t>(found - row_.begin())], 1.0f);
+    }
+
     /// The colour of a surface as if it were opaque.
     glm::vec4 surface_at(std::uint32_t number, int x, int y) {
+        if (shader_) return shaded_color(number, x);
         const Scene& scene = *frame_.scene;
         if (scene.surfaces.shading == SurfaceShading::none) return glm::vec4(0.0f);
         if (scene.surfaces.shading == SurfaceShading::paper) return glm::vec4(scene.surfaces.paper_color, 1.0f);
@@ -194,6 +267,13 @@ class TransparentTile {
         return last_color_;
     }
 
+    /// A surface in a pixel.
+    struct Found {
+        int x;
+        std::uint32_t number;
+        int count, columns, rows;  // of its samples there, and the sums over them
+    };
+
     const Frame& frame_;
     const ScreenSurfaces& screen_;
     const OccluderBins& bins_;
@@ -206,16 +286,20 @@ class TransparentTile {
     SurfaceOrder order_;  // of these two
     std::uint32_t last_number_ = ~0u;
     glm::vec4 last_color_{0.0f};
+    std::optional<FragmentShader> shader_;
+    std::vector<Found> row_;  // of a row of pixels, from the left
+    std::vector<SurfaceFragment> fragments_;
+    std::vector<glm::vec3> colors_;
 };
 
 }  // namespace
 
-void fill_transparent(const Frame& frame, const ScreenSurfaces& screen, const OccluderBins& bins,
-                      const PixelTiles& grid, int threads, Film& film) {
+void fill_transparent(const Frame& frame, const ScreenSurfaces& screen, const ShadedSurfaces* shaded,
+                      const OccluderBins& bins, const PixelTiles& grid, int threads, Film& film) {
     std::vector<std::unique_ptr<TransparentTile>> tiles(static_cast<std::size_t>(threads));
     parallel_for(grid.count(), threads, [&](std::size_t index, int worker) {
         auto& tile = tiles[static_cast<std::size_t>(worker)];
-        if (!tile) tile = std::make_unique<TransparentTile>(frame, screen, bins, grid);
+        if (!tile) tile = std::make_unique<TransparentTile>(frame, screen, shaded, bins, grid);
         tile->fill(index, film);
     });
 }

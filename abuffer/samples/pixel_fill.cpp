@@ -33,8 +33,10 @@ bool is_covered(const SampleTile& samples, PixelRect rect) {
 
 }  // namespace
 
-PixelFiller::PixelFiller(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels)
+PixelFiller::PixelFiller(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels,
+                         const ShadedSurfaces* shaded)
     : frame_(frame), screen_(screen), kernels_(kernels) {
+    if (shaded != nullptr) fragment_shader_.emplace(*shaded);
     const int per_pixel = samples_per_pixel_of(frame);
     const auto samples = static_cast<float>(per_pixel * per_pixel);
     for (int covered = 0; covered <= per_pixel * per_pixel; ++covered) {
@@ -219,6 +221,59 @@ void PixelFiller::put_shaded(const SampleTile& samples, PixelRect rect, int y, F
     film.put_colors(rect.x0, rect.x1, y, {row_.color[0], row_.color[1], row_.color[2], row_.color[3]});
 }
 
+void PixelFiller::add_fragments(const SampleTile& samples, int x, int y) {
+    struct Found {
+        std::uint32_t id, count;
+        int columns, rows;  // sums over its samples
+    };
+    std::array<Found, 64> found;
+    std::size_t count = 0;
+    const int s = samples.samples_per_pixel;
+    for (int row = 0; row < s; ++row) {
+        const std::uint32_t* const ids = &samples.ids[samples.index(x * s, y * s + row)];
+        for (int column = 0; column < s; ++column) {
+            if (ids[column] == SampleTile::kBackground) continue;
+            const std::uint32_t id = ids[column] >> 1;
+            std::size_t i = count;
+            while (i > 0 && found[i - 1].id != id) --i;
+            if (i == 0) found[count++] = {id, 0, 0, 0};
+            Found& own = found[i == 0 ? count - 1 : i - 1];
+            ++own.count;
+            own.columns += column;
+            own.rows += row;
+        }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const double scale = 1.0 / (s * static_cast<double>(found[i].count)), half = 0.5 / s;
+        fragments_.push_back(
+            {screen_.surface_of(found[i].id), {x + half + found[i].columns * scale, y + half + found[i].rows * scale}});
+        samples_of_.push_back(static_cast<std::uint8_t>(found[i].count));
+    }
+    fragments_of_.push_back(static_cast<std::uint8_t>(count));
+}
+
+void PixelFiller::put_fragments(const SampleTile& samples, PixelRect rect, Film& film) {
+    fragments_.clear();
+    samples_of_.clear();
+    fragments_of_.clear();
+    for (int y = rect.y0; y < rect.y1; ++y) {
+        for (int x = rect.x0; x < rect.x1; ++x) add_fragments(samples, x, y);
+    }
+    colors_.resize(fragments_.size());
+    fragment_shader_->shade(fragments_, colors_.data());
+    const float scale = 1.0f / static_cast<float>(samples.samples_per_pixel * samples.samples_per_pixel);
+    std::size_t pixel = 0, fragment = 0;
+    for (int y = rect.y0; y < rect.y1; ++y) {
+        for (int x = 0; x < rect.width(); ++x, ++pixel) {
+            glm::vec4 sum(0.0f);
+            for (int i = 0; i < fragments_of_[pixel]; ++i, ++fragment)
+                sum += glm::vec4(colors_[fragment], 1.0f) * (static_cast<float>(samples_of_[fragment]) * scale);
+            for (int c = 0; c < 4; ++c) row_.color[c][x] = Film::to_half(sum[c]);
+        }
+        film.put_colors(rect.x0, rect.x1, y, {row_.color[0], row_.color[1], row_.color[2], row_.color[3]});
+    }
+}
+
 PixelRect PixelFiller::in_crop(PixelRect r) const {
     const PixelRect& crop = frame_.crop;
     const PixelRect common{std::max(r.x0, crop.x0), std::max(r.y0, crop.y0), std::min(r.x1, crop.x1),
@@ -241,9 +296,11 @@ void PixelFiller::fill_part(const SampleTile& samples, PixelRect part, Film& fil
     }
     const bool is_paper = frame_.scene->surfaces.shading == SurfaceShading::paper;
     if (is_paper) put_paper(samples, part, film);
+    if (fragment_shader_) put_fragments(samples, part, film);
+    const bool is_put = is_paper || fragment_shader_.has_value();
     for (int y = part.y0; y < part.y1; ++y) {
         if (has_geometry) put_geometry(part, y, film);
-        if (!is_paper) put_shaded(samples, part, y, film);
+        if (!is_put) put_shaded(samples, part, y, film);
     }
 }
 

@@ -1,17 +1,21 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "abuffer/samples/surface_tile.h"
 #include "render/film.h"
+#include "shading/surface/fragment_shader.h"
 
 namespace burin {
 
 /// Fills the pixels of a tile from its samples, without lines. One per thread; buffers are used again.
 class PixelFiller {
   public:
-    PixelFiller(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels);
+    /// `shaded`: of a shading that varies over surfaces, else nullptr.
+    PixelFiller(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels,
+                const ShadedSurfaces* shaded);
 
     /// Puts the pixels of a tile that lie in the frame's crop.
     void fill(const SurfaceTile& tile, Film& film);
@@ -36,6 +40,9 @@ class PixelFiller {
     void put_paper(const SampleTile& samples, PixelRect rect, Film& film);
     void put_shaded(const SampleTile& samples, PixelRect rect, int y, Film& film);
     glm::vec4 color(std::uint32_t number, int x, int y);
+    /// Puts the colours of a part whose shading varies over surfaces.
+    void put_fragments(const SampleTile& samples, PixelRect rect, Film& film);
+    void add_fragments(const SampleTile& samples, int x, int y);
 
     const Frame& frame_;
     const ScreenSurfaces& screen_;
@@ -46,6 +53,11 @@ class PixelFiller {
     std::vector<HalfColor> paper_;               // by the number of covered samples
     std::uint32_t shaded_number_ = 0xFFFFFFFFu;  // whose geometry is:
     TriangleGeometry shaded_geometry_{};
+    std::optional<FragmentShader> fragment_shader_;
+    std::vector<SurfaceFragment> fragments_;  // of a part, pixel by pixel
+    std::vector<std::uint8_t> samples_of_;    // of each of them: how many
+    std::vector<std::uint8_t> fragments_of_;  // of each pixel: how many
+    std::vector<glm::vec3> colors_;           // of each fragment
     struct Row {
         std::uint16_t color[4][kWidth];
         static_assert(kWidth % 4 == 0);  // see GeometryRow

@@ -8,6 +8,7 @@
 #include "base/stopwatch.h"
 #include "methods/reference/reference_tile.h"
 #include "methods/thread_times.h"
+#include "render/surface_shading.h"
 
 namespace burin {
 namespace {
@@ -40,6 +41,7 @@ RenderStats render_reference(const Frame& frame, const RunOptions& options, Film
     const ReferenceLines lines(geometry, rays, frame.criteria.classes, frame.criteria.cos_crease_angle,
                                std::max(frame.width, frame.height));
     const ReferenceLooseEdges loose(geometry, rays, frame.criteria.classes);
+    const std::unique_ptr<const ShadedSurfaces> shaded = shaded_surfaces_of(frame, stats.threads);
     stats.prepare_s = watch.lap();
 
     const auto tiles = tiles_of(frame, tile_px(frame.scene->reference.samples, ReferenceTile::margin_px(frame)));
@@ -49,7 +51,7 @@ RenderStats render_reference(const Frame& frame, const RunOptions& options, Film
     parallel_for(tiles.size(), stats.threads, [&](std::size_t index, int worker) {
         auto& tile = workers[static_cast<std::size_t>(worker)];
         ThreadTimes& time = times[static_cast<std::size_t>(worker)];
-        if (!tile) tile = std::make_unique<ReferenceTile>(frame, geometry, rays, lines, loose);
+        if (!tile) tile = std::make_unique<ReferenceTile>(frame, geometry, rays, lines, loose, shaded.get());
         Stopwatch lap;
         tile->cast(tiles[index]);
         time.resolve += lap.lap();
@@ -60,6 +62,7 @@ RenderStats render_reference(const Frame& frame, const RunOptions& options, Film
         if (options.progress != nullptr) options.progress->advance();
     });
 
+    if (shaded) note_not_numbers(*shaded, stats.notes);
     share_out(watch.lap(), times, stats);
     stats.triangles = frame.surfaces.triangle_count();
     return stats;

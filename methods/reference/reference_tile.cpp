@@ -24,7 +24,8 @@ StrokeBand band_of(const LineStyle& style, bool has_front) {
 }  // namespace
 
 ReferenceTile::ReferenceTile(const Frame& frame, const RayGeometry& geometry, const EmbreeScene& rays,
-                             const ReferenceLines& lines, const ReferenceLooseEdges& loose)
+                             const ReferenceLines& lines, const ReferenceLooseEdges& loose,
+                             const ShadedSurfaces* shaded)
     : frame_(frame),
       geometry_(geometry),
       rays_(rays),
@@ -33,7 +34,9 @@ ReferenceTile::ReferenceTile(const Frame& frame, const RayGeometry& geometry, co
       per_pixel_(frame.scene->reference.samples),
       cells_per_pixel_(std::max(per_pixel_, kLeastCells)),
       width_px_(frame.scene->lines.style.width_px),
-      margin_(margin_px(frame)) {}
+      margin_(margin_px(frame)) {
+    if (shaded != nullptr) shader_.emplace(*shaded);
+}
 
 int ReferenceTile::margin_px(const Frame& frame) {
     return static_cast<int>(std::ceil(0.5 * frame.scene->lines.style.width_px)) + 1;
@@ -132,11 +135,17 @@ PixelResult ReferenceTile::shade_pixel(const SegmentGrid& grid, int x, int y) {
     glm::dvec4 surface(0.0), seen(0.0);
     Facet last;
     glm::dvec4 color(0.0);
+    if (shader_) shade_samples(row0, column0);
+    std::size_t next_color = 0;
     for (int row = 0; row < per_pixel_; ++row) {
         for (int column = 0; column < per_pixel_; ++column) {
             const Facet facet = sample(row0 + row, column0 + column);
             if (facet.is_background()) continue;
-            if (facet != last) color = glm::dvec4(color_of(facet, center));
+            if (shader_) {
+                color = glm::dvec4(colors_[next_color++], 1.0);
+            } else if (facet != last) {
+                color = glm::dvec4(color_of(facet, center));
+            }
             last = facet;
             const int cell_row = row * cells_per_pixel_ / per_pixel_,
                       cell_column = column * cells_per_pixel_ / per_pixel_;
@@ -281,6 +290,19 @@ bool ReferenceTile::is_hidden(const BoundarySegment& line, const NearestPoint& o
         }
     }
     return false;
+}
+
+void ReferenceTile::shade_samples(int row0, int column0) {
+    fragments_.clear();
+    for (int row = row0; row < row0 + per_pixel_; ++row) {
+        for (int column = column0; column < column0 + per_pixel_; ++column) {
+            const Facet facet = sample(row, column);
+            if (facet.is_background()) continue;
+            fragments_.push_back({{facet.object, facet.triangle}, sample_position(row, column)});
+        }
+    }
+    colors_.resize(fragments_.size());
+    shader_->shade(fragments_, colors_.data());
 }
 
 glm::vec4 ReferenceTile::color_of(Facet facet, glm::dvec2 at) const {

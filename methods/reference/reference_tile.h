@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "methods/reference/reference_loose.h"
 #include "render/film.h"
 #include "render/frame.h"
+#include "shading/surface/fragment_shader.h"
 
 // A tile is drawn by rays, from what is visible to the coverage of strokes.
 
@@ -18,8 +20,9 @@ namespace burin {
 /// Method `reference` for a rectangle of pixels.
 class ReferenceTile {
   public:
+    /// `shaded`: of a shading that varies over surfaces, else nullptr.
     ReferenceTile(const Frame& frame, const RayGeometry& geometry, const EmbreeScene& rays, const ReferenceLines& lines,
-                  const ReferenceLooseEdges& loose);
+                  const ReferenceLooseEdges& loose, const ShadedSurfaces* shaded);
 
     /// Pixels around a tile whose lines can reach into it.
     static int margin_px(const Frame& frame);
@@ -52,6 +55,8 @@ class ReferenceTile {
     bool is_hidden(const BoundarySegment& line, const NearestPoint& on_line, glm::dvec2 from,
                    std::span<const Stroke> strokes) const;
     glm::vec4 color_of(Facet facet, glm::dvec2 at) const;
+    /// Shades the samples of a pixel whose first one has this row and column.
+    void shade_samples(int row0, int column0);
     void fill_center(PixelResult& result, glm::dvec2 center) const;
 
     const Frame& frame_;
@@ -70,6 +75,9 @@ class ReferenceTile {
     std::vector<double> cell_total_, cell_class_;
     std::array<double, kLineClassCount> class_sum_{};
     std::vector<Stroke> strokes_;
+    std::optional<FragmentShader> shader_;
+    std::vector<SurfaceFragment> fragments_;  // samples of the pixel at work that have a surface
+    std::vector<glm::vec3> colors_;           // of these
 };
 
 }  // namespace burin

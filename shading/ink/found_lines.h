@@ -10,6 +10,7 @@
 #include "mesh/polygon_soup.h"
 #include "shading/ink/line_sides.h"
 #include "shading/line_style.h"
+#include "shading/surface/light.h"
 
 namespace burin {
 
@@ -41,7 +42,9 @@ struct FoundLines {
     std::vector<ObjectOfLines> objects;      ///< by number, from 1
     std::vector<std::string> materials;      ///< names by number, from 1
     std::vector<glm::vec3> material_colors;  ///< linear RGB
-    std::optional<glm::dvec3> light;         ///< direction to the key light in view space; none: it is at the eye
+    /// Direction to the key light in view space, where the sheet says it.
+    std::optional<glm::dvec3> light;
+    std::optional<ViewLight> scene_light;  ///< the key light of the scene; none: it is at the eye
     int frame = 0;
     double fps = 24, dpi = 96;
 };

@@ -226,10 +226,13 @@ void LineColumns::fill_sides(std::span<const LineSample> samples, Columns& out) 
     const auto facing = [&](bool is_front) {
         return [&, is_front](std::size_t i) { return std::clamp(glm::dot(normal(i, is_front), to_eye(i)), 0.0, 1.0); };
     };
+    const auto to_light = [&](std::size_t i) {
+        if (lines_.light) return unit(*lines_.light);
+        return lines_.scene_light ? lines_.scene_light->towards(position_of(samples[i])) : to_eye(i);
+    };
     const auto light = [&](bool is_front) {
-        return [&, is_front](std::size_t i) {
-            return std::clamp(glm::dot(normal(i, is_front), lines_.light ? unit(*lines_.light) : to_eye(i)), 0.0, 1.0);
-        };
+        return
+            [&, is_front](std::size_t i) { return std::clamp(glm::dot(normal(i, is_front), to_light(i)), 0.0, 1.0); };
     };
     out.each(V::facing, facing(true));
     out.each(V::facing2, facing(false));

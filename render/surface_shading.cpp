@@ -1,0 +1,23 @@
+#include "render/surface_shading.h"
+
+namespace burin {
+
+std::unique_ptr<const ShadedSurfaces> shaded_surfaces_of(const Frame& frame, int threads) {
+    if (!frame.surface_look) return nullptr;
+    ShadedView view;
+    view.surfaces = &frame.surfaces;
+    view.materials = frame.scene->materials;
+    view.camera_to_world = frame.camera.to_world;
+    view.lights = lights_of(frame);
+    view.cos_crease_angle = frame.criteria.cos_crease_angle;
+    return std::make_unique<ShadedSurfaces>(*frame.surface_look, std::move(view), threads);
+}
+
+void note_not_numbers(const ShadedSurfaces& surfaces, std::vector<std::string>& notes) {
+    const std::uint64_t count = surfaces.not_numbers();
+    if (count == 0) return;
+    notes.push_back("[surfaces]: a value is not a number at " + std::to_string(count) +
+                    " places on surfaces; there it is 0");
+}
+
+}  // namespace burin

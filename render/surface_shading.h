@@ -1,0 +1,19 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/frame.h"
+#include "shading/surface/shaded_surfaces.h"
+
+namespace burin {
+
+/// What shading the surfaces of a frame reads; nullptr where their shading does not vary over them. The frame must
+/// outlive it.
+std::unique_ptr<const ShadedSurfaces> shaded_surfaces_of(const Frame& frame, int threads);
+
+/// Says where expressions gave no numbers. `notes`: gets what users should know.
+void note_not_numbers(const ShadedSurfaces& surfaces, std::vector<std::string>& notes);
+
+}  // namespace burin

@@ -1,0 +1,297 @@
+#include "shading/surface/fragment_shader.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shading/surface/hatching.h"
+
+namespace burin {
+namespace {
+
+using V = SurfaceVariable;
+
+glm::dvec3 unit(const glm::dvec3& v) { return v / std::max(glm::length(v), 1e-300); }
+
+/// By how much a level's direction differs from that of the first one: no two are across each other, for then lines
+/// would leave rows of dots.
+constexpr double kLevelTurnsDeg[] = {0, 70, 125, 30};
+
+/// Planes that cut a surface at a smaller angle than the first of these make no lines on it, at a larger one than the
+/// second no others are needed. Sines.
+constexpr double kLevelPlanes[] = {0.12, 0.3};
+
+/// At a shadow's edge, lit places are counted in so many rows and columns of a pixel.
+constexpr int kFineSide = 4;
+
+}  // namespace
+
+FragmentShader::FragmentShader(const ShadedSurfaces& surfaces)
+    : surfaces_(surfaces), look_(surfaces.look()), projection_(surfaces.surfaces().projection) {
+    const bool is_on_object = look_.shading == SurfaceShading::hatch && look_.hatch_space == HatchSpace::object;
+    const bool reads_light = look_.shading == SurfaceShading::toon || look_.shading == SurfaceShading::gooch;
+    SurfaceVariables of_pixel;
+    for (const V v : {V::x, V::y, V::C, V::object, V::material}) of_pixel.set(number_of(v));
+    needs_places_ = look_.needs_lit || reads_light || is_on_object || (look_.variables & ~of_pixel).any();
+    needs_changes_ = look_.shading == SurfaceShading::toon || is_on_object;
+    columns_.resize(look_.inputs.size() * kBlock);
+    std::size_t results = 0;
+    for (const ExpressionOutput& output : look_.program.outputs()) results += output.components;
+    values_.resize(results * kBlock);
+    triangles_.reserve(kBlock);
+    const glm::dvec3 axis = unit(look_.hatch_axis);
+    const glm::dvec3 across =
+        unit(glm::cross(axis, std::abs(axis.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
+    const glm::dvec3 other = glm::cross(across, axis);
+    for (int level = 0; level < look_.hatch_levels; ++level) {
+        const double turn = glm::radians(kLevelTurnsDeg[level]);
+        const double angle = glm::radians(look_.hatch_angle_deg) + turn;
+        hatch_directions_.emplace_back(std::sin(angle), std::cos(angle));  // across the lines; y runs down
+        hatch_axes_.push_back(level % 2 == 0 ? unit(axis * std::cos(turn) + across * std::sin(turn))
+                                             : unit(axis * std::cos(turn) + other * std::sin(turn)));
+        const glm::dvec3 aside(0.36, 0.48, 0.8);
+        const bool is_aside = std::abs(glm::dot(hatch_axes_.back(), aside)) < 0.95;
+        other_axes_.push_back(unit(glm::cross(hatch_axes_.back(), is_aside ? aside : glm::dvec3(1, 0, 0))));
+    }
+}
+
+void FragmentShader::shade(std::span<const SurfaceFragment> fragments, glm::vec3* colors) {
+    for (std::size_t first = 0; first < fragments.size(); first += kBlock)
+        shade_block(fragments.subspan(first, std::min(kBlock, fragments.size() - first)), colors + first);
+}
+
+std::uint16_t FragmentShader::triangle_number(SurfaceId id) {
+    std::size_t slot = (id.triangle * 0x9E3779B1u ^ id.instance * 0x85EBCA77u) >> 7 & (kSlots - 1);
+    for (; slots_[slot] != 0; slot = (slot + 1) & (kSlots - 1)) {
+        const auto number = static_cast<std::uint16_t>(slots_[slot] - 1);
+        if (triangles_[number].id() == id) return number;
+    }
+    triangles_.emplace_back(surfaces_, id);
+    slots_[slot] = static_cast<std::uint16_t>(triangles_.size());
+    return static_cast<std::uint16_t>(triangles_.size() - 1);
+}
+
+void FragmentShader::shade_block(std::span<const SurfaceFragment> fragments, glm::vec3* colors) {
+    triangles_.clear();
+    slots_.fill(0);
+    for (std::size_t i = 0; i < fragments.size(); ++i) {
+        const bool is_known = i > 0 && fragments[i].surface == fragments[i - 1].surface;
+        triangle_at_[i] = is_known ? triangle_at_[i - 1] : triangle_number(fragments[i].surface);
+        if (needs_places_) places_[i] = triangle_of(i).at(fragments[i].place, needs_changes_);
+    }
+    if (look_.needs_lit) {
+        for (std::size_t i = 0; i < fragments.size(); ++i) lit_[i] = lit_share(i, fragments[i].place);
+    }
+    if (!look_.program.outputs().empty()) evaluate(fragments);
+    const auto in_light = [&](std::size_t i, const auto& shade) -> glm::vec3 {
+        if (!look_.has_shadows || lit_[i] == 1) return shade(false);
+        if (lit_[i] == 0) return shade(true);
+        return glm::mix(shade(true), shade(false), lit_[i]);
+    };
+    for (std::size_t i = 0; i < fragments.size(); ++i) {
+        switch (look_.shading) {
+            case SurfaceShading::toon:
+                colors[i] = in_light(i, [&](bool in_shadow) { return toon(i, in_shadow); });
+                break;
+            case SurfaceShading::gooch:
+                colors[i] = in_light(i, [&](bool in_shadow) { return gooch(i, in_shadow); });
+                break;
+            case SurfaceShading::hatch:
+                colors[i] = hatch(i, fragments[i].place);
+                break;
+            case SurfaceShading::expression:
+                colors[i] = {values_[i], values_[kBlock + i], values_[2 * kBlock + i]};
+                break;
+            default:
+                colors[i] = triangle_of(i).color();
+                break;
+        }
+    }
+}
+
+void FragmentShader::fill_column(const SurfaceInput& input, std::span<const SurfaceFragment> fragments,
+                                 float* to) const {
+    const std::size_t n = fragments.size();
+    const auto c = static_cast<int>(input.component);
+    const auto each = [&](const auto& compute) {
+        for (std::size_t i = 0; i < n; ++i) to[i] = static_cast<float>(compute(i));
+    };
+    const auto depth = [&](std::size_t i) { return -places_[i].position.z; };
+    const auto to_eye = [&](std::size_t i) {
+        return projection_.orthographic ? glm::dvec3(0, 0, 1) : unit(-places_[i].position);
+    };
+    const auto in_row = [c](const glm::dmat4& m, const glm::dvec3& v) {
+        return m[0][c] * v.x + m[1][c] * v.y + m[2][c] * v.z;
+    };
+    const glm::dmat4& to_world = surfaces_.camera_to_world();
+    switch (input.variable) {
+        case V::x:
+            return each([&](std::size_t i) { return fragments[i].place.x; });
+        case V::y:
+            return each([&](std::size_t i) { return fragments[i].place.y; });
+        case V::depth:
+            return each(depth);
+        case V::distance:
+            return each(
+                [&](std::size_t i) { return projection_.orthographic ? depth(i) : glm::length(places_[i].position); });
+        case V::px_size:
+            return each([&](std::size_t i) { return projection_.pixel_size(depth(i)); });
+        case V::P:
+            return each([&](std::size_t i) { return in_row(to_world, places_[i].position) + to_world[3][c]; });
+        case V::PO:
+            return each([&](std::size_t i) {
+                const glm::dmat4& to_object = surfaces_.to_object(triangle_of(i).id().instance);
+                return in_row(to_object, places_[i].position) + to_object[3][c];
+            });
+        case V::N:
+            return each([&](std::size_t i) { return in_row(to_world, places_[i].normal); });
+        case V::facing:
+            return each([&](std::size_t i) { return std::clamp(glm::dot(places_[i].normal, to_eye(i)), 0.0, 1.0); });
+        case V::light:
+            return each([&](std::size_t i) {
+                const ViewLight& key = surfaces_.lights().front();
+                return std::clamp(glm::dot(places_[i].normal, key.towards(places_[i].position)), 0.0, 1.0);
+            });
+        case V::lit:
+            return each([&](std::size_t i) { return lit_[i]; });
+        case V::C:
+            return each([&](std::size_t i) { return triangle_of(i).color()[c]; });
+        case V::object:
+            return each([&](std::size_t i) { return triangle_of(i).object_id(); });
+        case V::material:
+            return each([&](std::size_t i) { return triangle_of(i).material_id(); });
+    }
+}
+
+void FragmentShader::evaluate(std::span<const SurfaceFragment> fragments) {
+    std::array<const float*, 3 * kSurfaceVariableCount> columns{};
+    for (std::size_t k = 0; k < look_.inputs.size(); ++k) {
+        float* const to = &columns_[k * kBlock];
+        fill_column(look_.inputs[k], fragments, to);
+        columns[k] = to;
+    }
+    std::array<float*, 9> values{};
+    for (std::size_t k = 0; k * kBlock < values_.size(); ++k) values[k] = &values_[k * kBlock];
+    std::array<NotNumbers, 3> found{};
+    const std::size_t results = look_.program.outputs().size();
+    look_.program.evaluate(std::span(columns).first(look_.inputs.size()), fragments.size(), values,
+                           std::span(found).first(results));
+    std::uint64_t count = 0;
+    for (const NotNumbers& of_result : found) count += of_result.count;
+    if (count != 0) surfaces_.count_not_numbers(count);
+}
+
+float FragmentShader::lit_share(std::size_t i, glm::dvec2 pixel) const {
+    const ShadowCasters& casters = *surfaces_.casters();
+    const ShadedTriangle& triangle = triangle_of(i);
+    const SurfacePlace& place = places_[i];
+    // A surface is in its own shadow where it is turned away.
+    if (glm::dot(place.normal, surfaces_.lights().front().towards(place.position)) <= 0) return 0;
+    const auto count_lit = [&](int side) {
+        int lit = 0;
+        for (int k = 0; k < side * side; ++k) {
+            const glm::dvec2 at((k % side + 0.5) / side - 0.5, (k / side + 0.5) / side - 0.5);
+            lit += casters.is_lit(triangle.shadow_place(pixel + at), triangle.id()) ? 1 : 0;
+        }
+        return lit;
+    };
+    const int of_four = count_lit(2);
+    if (of_four == 0 || of_four == 4) return of_four == 0 ? 0.0f : 1.0f;
+    return static_cast<float>(count_lit(kFineSide)) / (kFineSide * kFineSide);
+}
+
+FragmentShader::Light FragmentShader::light_at(const SurfacePlace& place, bool in_shadow) const {
+    Light brightest{-1, 0};
+    bool is_first = true;
+    for (const ViewLight& light : surfaces_.lights()) {
+        const glm::dvec3 way = light.towards(place.position);
+        const double value = std::clamp(glm::dot(place.normal, way), -1.0, 1.0);
+        if (in_shadow && is_first && value > 0) {
+            brightest = {0, 0};
+            is_first = false;
+            continue;
+        }
+        if (!is_first && value <= brightest.value) continue;
+        is_first = false;
+        brightest.value = value;
+        if (!needs_changes_) continue;
+        glm::dvec2 change;
+        for (int i = 0; i < 2; ++i) {
+            change[i] = glm::dot(place.normal_change[i], way);
+            if (!light.is_at_point) continue;
+            const double distance = std::max(glm::length(light.place - place.position), 1e-300);
+            const glm::dvec3& moved = place.position_change[i];
+            change[i] -= glm::dot(place.normal, moved - way * glm::dot(way, moved)) / distance;
+        }
+        brightest.change_per_px = glm::length(change);
+    }
+    return brightest;
+}
+
+glm::vec3 FragmentShader::toon(std::size_t i, bool in_shadow) const {
+    const glm::vec3& color = triangle_of(i).color();
+    const Light light = light_at(places_[i], in_shadow);
+    const auto tone = [&](const ToneCurve& curve) {
+        const glm::vec3 value = curve.at(light.value, light.change_per_px * look_.softness_px);
+        return curve.is_color() ? value : value * color;
+    };
+    const glm::vec3 main = tone(look_.tones);
+    if (!look_.has_detail) return main;
+    return main + (tone(look_.detail_tones) - main) * values_[i];
+}
+
+glm::vec3 FragmentShader::gooch(std::size_t i, bool in_shadow) const {
+    const glm::vec3& color = triangle_of(i).color();
+    const auto share = static_cast<float>(0.5 * (1 + light_at(places_[i], in_shadow).value));
+    return glm::mix(look_.cool + 0.25f * color, look_.warm + 0.5f * color, share);
+}
+
+double FragmentShader::covered_on_object(std::size_t i, const glm::dvec3& axis, double width) const {
+    const glm::dmat4& to_object = surfaces_.to_object(triangle_of(i).id().instance);
+    const SurfacePlace& p = places_[i];
+    const glm::dvec3 in_view = axis_in_view(i, axis);
+    const double place = glm::dot(in_view, p.position) + glm::dot(axis, glm::dvec3(to_object[3]));
+    const glm::dvec2 change(glm::dot(in_view, p.position_change[0]), glm::dot(in_view, p.position_change[1]));
+    // Where planes are nearly level with the surface, lines would crowd.
+    const double least = 0.1 * glm::length(in_view) * projection_.pixel_size(-p.position.z);
+    return covered_by_adaptive_lines(place, std::max(glm::length(change), least), look_.hatch_spacing_px, width);
+}
+
+glm::dvec3 FragmentShader::axis_in_view(std::size_t i, const glm::dvec3& axis) const {
+    const glm::dmat4& to_object = surfaces_.to_object(triangle_of(i).id().instance);
+    return {glm::dot(axis, glm::dvec3(to_object[0])), glm::dot(axis, glm::dvec3(to_object[1])),
+            glm::dot(axis, glm::dvec3(to_object[2]))};
+}
+
+double FragmentShader::free_of_level(std::size_t i, std::size_t level, double width, glm::dvec2 pixel) const {
+    if (look_.hatch_space == HatchSpace::screen) {
+        const double place = glm::dot(pixel, hatch_directions_[level]) / look_.hatch_spacing_px;
+        return 1 - covered_by_lines(place, 1 / look_.hatch_spacing_px, width);
+    }
+    // Where the planes of the level hardly cut the surface, others take over.
+    const glm::dvec3& axis = hatch_axes_[level];
+    const double cosine = std::min(std::abs(glm::dot(unit(axis_in_view(i, axis)), places_[i].normal)), 1.0);
+    const double sine = std::sqrt(1 - cosine * cosine);
+    const double u = std::clamp((sine - kLevelPlanes[0]) / (kLevelPlanes[1] - kLevelPlanes[0]), 0.0, 1.0);
+    const double own = width * u * u * (3 - 2 * u);
+    double free = 1;
+    if (own > 0) free *= 1 - covered_on_object(i, axis, own);
+    if (own < width) free *= 1 - covered_on_object(i, other_axes_[level], 1 - (1 - width) / (1 - own));
+    return free;
+}
+
+glm::vec3 FragmentShader::hatch(std::size_t i, glm::dvec2 pixel) const {
+    const auto tone = static_cast<double>(values_[i]);
+    const HatchLevels levels{look_.hatch_levels};
+    double free = 1;
+    for (int level = 0; level < look_.hatch_levels; ++level) {
+        const double width = levels.coverage(level, tone);
+        if (!(width > 0)) break;
+        free *= free_of_level(i, static_cast<std::size_t>(level), width, pixel);
+    }
+    const auto covered = static_cast<float>(1 - free);
+    const glm::vec3 ink(values_[kBlock + i], values_[2 * kBlock + i], values_[3 * kBlock + i]);
+    const glm::vec3 ground(values_[4 * kBlock + i], values_[5 * kBlock + i], values_[6 * kBlock + i]);
+    return ground + (ink - ground) * covered;
+}
+
+}  // namespace burin

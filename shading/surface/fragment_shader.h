@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "shading/surface/shaded_surfaces.h"
+#include "shading/surface/shaded_triangle.h"
+
+namespace burin {
+
+/// What one triangle has of a pixel: the middle of its samples there.
+struct SurfaceFragment {
+    SurfaceId surface;
+    glm::dvec2 place;  ///< in pixels
+};
+
+/// FragmentShader gives places on surfaces their colours, some hundred at a time. One per thread; buffers are used
+/// again.
+class FragmentShader {
+  public:
+    explicit FragmentShader(const ShadedSurfaces& surfaces);
+
+    /// Linear RGB, of a surface as if it were opaque. What a colour is depends on its fragment alone.
+    void shade(std::span<const SurfaceFragment> fragments, glm::vec3* colors);
+
+  private:
+    static constexpr std::size_t kBlock = 256;
+    static constexpr std::size_t kSlots = 1024;  ///< of the table of triangles, a power of two
+
+    /// Light at a place: N · L of the brightest light, from -1, and by how much it changes over a pixel.
+    struct Light {
+        double value, change_per_px;
+    };
+
+    void shade_block(std::span<const SurfaceFragment> fragments, glm::vec3* colors);
+    std::uint16_t triangle_number(SurfaceId id);
+    void evaluate(std::span<const SurfaceFragment> fragments);
+    void fill_column(const SurfaceInput& input, std::span<const SurfaceFragment> fragments, float* to) const;
+    /// With `in_shadow`: where the key light is hidden.
+    Light light_at(const SurfacePlace& place, bool in_shadow) const;
+    /// The share of a pixel's part that the key light reaches.
+    float lit_share(std::size_t i, glm::dvec2 pixel) const;
+    glm::vec3 toon(std::size_t i, bool in_shadow) const;
+    glm::vec3 gooch(std::size_t i, bool in_shadow) const;
+    glm::vec3 hatch(std::size_t i, glm::dvec2 pixel) const;
+    /// What the lines of a level leave free of a place when they cover so much.
+    double free_of_level(std::size_t i, std::size_t level, double width, glm::dvec2 pixel) const;
+    /// What planes across an axis of the object cover.
+    double covered_on_object(std::size_t i, const glm::dvec3& axis, double width) const;
+    glm::dvec3 axis_in_view(std::size_t i, const glm::dvec3& axis) const;
+    const ShadedTriangle& triangle_of(std::size_t i) const { return triangles_[triangle_at_[i]]; }
+
+    const ShadedSurfaces& surfaces_;
+    const SurfaceLook& look_;
+    const Projection& projection_;
+    bool needs_places_, needs_changes_;
+    std::vector<glm::dvec2> hatch_directions_;  // on the screen, per level
+    std::vector<glm::dvec3> hatch_axes_;        // in the object, per level
+    std::vector<glm::dvec3> other_axes_;        // across these, for surfaces that lie in their planes
+
+    // Of the block at work.
+    std::vector<ShadedTriangle> triangles_;
+    std::array<std::uint16_t, kSlots> slots_{};  // number of a triangle + 1
+    std::array<std::uint16_t, kBlock> triangle_at_{};
+    std::array<SurfacePlace, kBlock> places_{};
+    std::array<float, kBlock> lit_{};
+    std::vector<float> columns_;  // of the program's inputs, one after the other
+    std::vector<float> values_;   // of its results
+};
+
+}  // namespace burin
