@@ -314,9 +314,14 @@ void run_explain(const Arguments& a) {
         throw UsageError("--pixel: must lie within the image of " + std::to_string(frame.width) + "x" +
                          std::to_string(frame.height) + " pixels");
     }
+    if (a.json) {
+        if (!frame.sheet) throw UsageError("--json: has the strokes of a style sheet; give one with --style");
+        std::fputs(json_of(explain_strokes(frame, x, y), x, y).c_str(), stdout);
+        return;
+    }
     std::fputs(explain_pixel(frame, x, y).c_str(), stdout);
     if (frame.sheet) {
-        std::fputs(explain_strokes(frame, x, y).c_str(), stdout);
+        std::fputs(text_of(explain_strokes(frame, x, y)).c_str(), stdout);
     } else if (a.method != "patel") {
         std::fputs(drawn_by_abuffer(frame, x, y).c_str(), stdout);
     }
