@@ -74,19 +74,19 @@ TEST(LibraryExplain, TellsSetsStylesLinesAndValues) {
               0u)
         << text;
     EXPECT_NE(text.find("width 3 px = depth - 1.5"), std::string::npos) << text;
-    for (const auto& [key, value] : std::vector<std::pair<std::string, std::string>>{
-             {"reason", "\"class silhouette is not in its classes\""},
-             {"style", "\"ink\""},
-             {"class", "\"silhouette\""},
-             {"object", "\"bolt\""},
-             {"material", "\"steel\""},
-             {"is_behind", "true"},
-             {"invisibility", "0"},
-             {"copy", "0"},
-             {"linear", "["},
-             {"shader", "null"},
-             {"test", "null"},
-             {"depth", "4.5"}}) {
+    for (const auto& [key, value] :
+         std::vector<std::pair<std::string, std::string>>{{"reason", "\"class silhouette is not in its classes\""},
+                                                          {"style", "\"ink\""},
+                                                          {"class", "\"silhouette\""},
+                                                          {"object", "\"bolt\""},
+                                                          {"material", "\"steel\""},
+                                                          {"is_behind", "true"},
+                                                          {"invisibility", "0"},
+                                                          {"copy", "0"},
+                                                          {"linear", "["},
+                                                          {"shader", "null"},
+                                                          {"test", "null"},
+                                                          {"depth", "4.5"}}) {
         EXPECT_EQ(behind(json, key), value) << key;
     }
     const auto after = [&](const std::string& key) { return json.substr(json.find("\"" + key + "\": {")); };
@@ -113,9 +113,9 @@ TEST(LibraryExplain, IsWhatTheProgramSays) {
              {"./sheet.toml", {30, 60}}, {"comic", {29, 60}}, {"pencil", {80, 10}}, {"technical", {130, 100}}}) {
         from.set_style(style == "./sheet.toml" ? kSheet : style);
         const auto program = [&, &s = style, &p = pixel](const char* option) {
-            const ProgramResult result = run_burin(
-                folder.path(), {"explain", "scene.toml", "--size", "160x120", "--style", s, "--pixel",
-                                std::to_string(p[0]) + "," + std::to_string(p[1]), option});
+            const ProgramResult result =
+                run_burin(folder.path(), {"explain", "scene.toml", "--size", "160x120", "--style", s, "--pixel",
+                                          std::to_string(p[0]) + "," + std::to_string(p[1]), option});
             EXPECT_EQ(result.status, 0) << result.err;
             return result.out;
         };
@@ -145,8 +145,9 @@ TEST(LibraryExplain, NamesShadersAndWhatTheyRead) {
     Scene from = scene();
     from.add_line_shader("wide", std::make_shared<Wide>());
     from.add_line_test("half", std::make_shared<Half>());
-    from.set_style("[[set]]\nname = \"a\"\nclasses = [\"silhouette\"]\nstyle = \"ink\"\ntest = \"half\"\n"
-                   "[style.ink]\nwidth = 3\nshader = \"wide\"\n");
+    from.set_style(
+        "[[set]]\nname = \"a\"\nclasses = [\"silhouette\"]\nstyle = \"ink\"\ntest = \"half\"\n"
+        "[style.ink]\nwidth = 3\nshader = \"wide\"\n");
     const std::string json = from.explain(30, 60, kView, "json"), text = from.explain(30, 60, kView);
     EXPECT_EQ(behind(json, "shader"), "\"wide\"");
     EXPECT_EQ(behind(json, "test"), "\"half\"");
