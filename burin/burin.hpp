@@ -373,6 +373,14 @@ class Scene {
         for (const auto& named : tests_) used.push_back(named.second);
         return Drawing(call(burin_find_lines, view, options), std::move(used));
     }
+    /// Why a pixel looks as it does: "text" or "json"; see burin_explain().
+    std::string explain(int x, int y, const View& view = {}, const std::string& format = "text",
+                        const Options& options = {}) {
+        const auto explained = [&](burin_scene* scene, const burin_view* v, const burin_options* o) {
+            return burin_explain(scene, v, o, x, y, format.c_str());
+        };
+        return call(explained, view, options);
+    }
     /// From any thread: see burin_cancel().
     void cancel() noexcept { burin_cancel(get()); }
     burin_scene* get() const noexcept { return scene_.get(); }
@@ -437,9 +445,10 @@ class Scene {
             }
         }
     };
-    template <typename Result>
-    Result* call(Result* (*work)(burin_scene*, const burin_view*, const burin_options*), const View& view,
-                 const Options& options) {
+    template <typename Work>
+    std::invoke_result_t<Work, burin_scene*, const burin_view*, const burin_options*> call(const Work& work,
+                                                                                           const View& view,
+                                                                                           const Options& options) {
         burin_view v = {};
         v.size = sizeof v;
         v.width = view.width;
@@ -459,7 +468,7 @@ class Scene {
         o.layers = options.layers.empty() ? nullptr : options.layers.c_str();
         o.progress = options.progress ? &Teller::tell : nullptr;
         o.user = &teller;
-        Result* const result = work(get(), &v, &o);
+        auto* const result = work(get(), &v, &o);
         if (result == nullptr && teller.thrown) std::rethrow_exception(teller.thrown);
         return checked(result);
     }

@@ -125,6 +125,7 @@ const ColumnKind& column_named(std::string_view name) {
 burin_picture* picture_of(const burin_drawing& drawing, const char* style, int threads) {
     Film film = drawing.surfaces.copy();
     std::vector<std::string> notes;
+    if (style == nullptr) notes = drawing.notes;
     if (style == nullptr && !drawing.found) {
         draw_lines(drawing.frame, drawing.laid_out, {threads}, film);
     } else {
@@ -157,6 +158,7 @@ burin_drawing* burin_find_lines(burin_scene* scene, const burin_view* view, cons
         }
         keep_frame(call.ready(), *drawing);
         drawing->threads = threads;
+        drawing->notes = call.ready().notes();
         return drawing.release();
     });
 }

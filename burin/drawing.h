@@ -21,6 +21,7 @@ struct burin_drawing {
     std::vector<burin::LinePiece> pieces;    ///< lines as they were found: visible ones first
     std::vector<std::uint32_t> object, material;  ///< of each piece
     int threads = 0;
+    std::vector<std::string> notes;  ///< on pictures that look as the scene did
 
     explicit burin_drawing(burin::Film film) : surfaces(std::move(film)) {}
 

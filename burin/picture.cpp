@@ -1,5 +1,6 @@
 #include "burin/picture.h"
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "methods/abuffer.h"
 #include "output/film_files.h"
 #include "render/layer_names.h"
+#include "render/picture_notes.h"
 
 namespace burin {
 Film film_of(const Frame& frame, const OptionsInput& options) {
@@ -47,9 +49,15 @@ burin_picture* burin_render(burin_scene* scene, const burin_view* view, const bu
         const FrameCall call(scene, view, options);
         const Frame& frame = call.ready().frame();
         Film film = film_of(frame, call.given());
-        RenderStats stats = with_option_names([&] { return render_abuffer(frame, call.run(), film); });
-        return new burin_picture(std::move(film), call.ready().scene().picture, call.given().threads,
-                                 std::move(stats.notes));
+        std::vector<std::string> notes = call.ready().notes();
+        const RenderStats stats = with_option_names([&] { return render_abuffer(frame, call.run(), film); });
+        const auto& instances = frame.surfaces.instances;
+        const bool has_lines = std::any_of(instances.begin(), instances.end(),
+                                           [](const SurfaceInstance& i) { return !i.mesh->loose_edges.empty(); });
+        const bool is_whole = frame.crop.width() == frame.width && frame.crop.height() == frame.height;
+        if (stats.fragments == 0 && is_whole && !has_lines) notes.emplace_back(kNoSurfaceIsSeen);
+        notes.insert(notes.end(), stats.notes.begin(), stats.notes.end());
+        return new burin_picture(std::move(film), call.ready().scene().picture, call.given().threads, std::move(notes));
     });
 }
 

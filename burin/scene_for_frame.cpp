@@ -9,6 +9,7 @@
 #include "methods/abuffer.h"
 #include "render/close_cracks.h"
 #include "render/copied_objects.h"
+#include "render/picture_notes.h"
 
 namespace burin {
 
@@ -33,6 +34,18 @@ SceneForFrame::SceneForFrame(burin_scene& state, const burin_view& view, const O
         give_meshes_back();
         throw;
     }
+}
+
+std::vector<std::string> SceneForFrame::notes() const {
+    std::vector<std::string> notes;
+    if (std::string unread = note_on_unread_keys(state_.settings.description().unread_line_keys); !unread.empty())
+        notes.push_back(std::move(unread));
+    if (std::string missing = note_on_missing_marks(frame_); !missing.empty()) {
+        if (!scene_.sheet)
+            missing += "; lines.draw=" + to_string(scene_.lines.classes | LineClass::mark) + " has it, too";
+        notes.push_back(std::move(missing));
+    }
+    return notes;
 }
 
 SceneForFrame::~SceneForFrame() { give_meshes_back(); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "burin/scene_state.h"
@@ -22,6 +23,8 @@ class SceneForFrame {
 
     const Scene& scene() const { return scene_; }
     const Frame& frame() const { return frame_; }
+    /// What its user should know of the picture before it is drawn.
+    std::vector<std::string> notes() const;
 
   private:
     void take_meshes();

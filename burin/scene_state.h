@@ -58,6 +58,7 @@ struct burin_scene {
     std::map<int, burin::ObjectState> objects;                ///< by their numbers
     int last_mesh = 0, last_object = 0;                       ///< numbers that were given
     std::vector<std::string> notes;
+    std::string explanation;  ///< the last one of burin_explain()
     /// Of the program, by name; drawings share it, so that it is replaced and not changed.
     std::shared_ptr<const burin::LineShaders> line_shaders = std::make_shared<const burin::LineShaders>();
     std::uint64_t revision = 1;  ///< counts changes of objects, materials and settings

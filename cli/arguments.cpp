@@ -391,6 +391,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     add_scene_options(*explain, t);
     add_method_option(*explain, t);
     explain->add_option("--pixel", t.pixel, "the pixel, X,Y from the upper left corner")->required();
+    explain->add_flag("--json", t.json, "the strokes of the style sheet in the pixel, as JSON");
     CLI::App* const list = app.add_subcommand("methods", "list the methods");
     list->add_flag("--json", t.json, "as JSON");
     CLI::App* const styles = app.add_subcommand("styles", "list the style sheets, or print one of them");

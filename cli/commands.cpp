@@ -30,6 +30,7 @@
 #include "render/close_cracks.h"
 #include "render/copied_objects.h"
 #include "render/layer_names.h"
+#include "render/picture_notes.h"
 
 namespace burin {
 namespace {
@@ -105,21 +106,18 @@ void refuse_varied_shading(const Scene& scene, const Method& method) {
 
 /// Notes lines of the input that are not drawn.
 void note_loose_edges(const Frame& frame, const Method& method) {
+    if (const std::string missing = note_on_missing_marks(frame); !missing.empty()) {
+        const std::string draw_it =
+            frame.scene->sheet
+                ? ""
+                : "; --lines " + to_string(frame.scene->lines.classes | LineClass::mark) + " has it, too";
+        std::fprintf(stderr, "burin: note: %s%s\n", missing.c_str(), draw_it.c_str());
+        return;
+    }
     std::uint64_t count = 0;
     for (const SurfaceInstance& instance : frame.surfaces.instances) count += instance.mesh->loose_edges.size();
-    if (count == 0) return;
-    const std::string lines = count == 1 ? "1 line" : std::to_string(count) + " lines";
-    const bool draws_marks = frame.scene->lines.classes.has(LineClass::mark);
-    if (!draws_marks && frame.scene->sheet) {
-        std::fprintf(stderr,
-                     "burin: note: no set of the style sheet draws the class mark, and so %s of the input %s missing\n",
-                     lines.c_str(), count == 1 ? "is" : "are");
-    } else if (!draws_marks) {
-        std::fprintf(
-            stderr,
-            "burin: note: the class mark is not drawn, and so %s of the input %s missing; --lines %s has it, too\n",
-            lines.c_str(), count == 1 ? "is" : "are", to_string(frame.scene->lines.classes | LineClass::mark).c_str());
-    } else if (!method.draws_loose_edges && method.draws.has(LineClass::mark)) {
+    if (count > 0 && !method.draws_loose_edges && method.draws.has(LineClass::mark)) {
+        const std::string lines = count == 1 ? "1 line" : std::to_string(count) + " lines";
         std::fprintf(
             stderr,
             "burin: note: method %s draws edges of polygons only, and leaves out %s of the input; abuffer draws them\n",
@@ -283,10 +281,7 @@ void run_render(const Arguments& a) {
     const bool has_lines = std::any_of(scene.meshes.begin(), scene.meshes.end(),
                                        [](const Mesh& mesh) { return !mesh.loose_edges.empty(); });
     if (counts && times.render.fragments == 0 && !has_lines && !a.quiet)
-        std::fputs(
-            "burin: note: no sample of the picture sees a surface; does the camera look at the "
-            "scene?\n",
-            stderr);
+        std::fprintf(stderr, "burin: note: %s\n", kNoSurfaceIsSeen);
     if (!a.quiet) {
         for (const std::string& note : times.render.notes)
             std::fprintf(stderr, "burin: note: %s\n", printable(note, 4000).c_str());
@@ -323,9 +318,14 @@ void run_explain(const Arguments& a) {
         throw UsageError("--pixel: must lie within the image of " + std::to_string(frame.width) + "x" +
                          std::to_string(frame.height) + " pixels");
     }
+    if (a.json) {
+        if (!frame.sheet) throw UsageError("--json: has the strokes of a style sheet; give one with --style");
+        std::fputs(json_of(explain_strokes(frame, x, y), x, y).c_str(), stdout);
+        return;
+    }
     std::fputs(explain_pixel(frame, x, y).c_str(), stdout);
     if (frame.sheet) {
-        std::fputs(explain_strokes(frame, x, y).c_str(), stdout);
+        std::fputs(text_of(explain_strokes(frame, x, y)).c_str(), stdout);
     } else if (a.method != "patel") {
         std::fputs(drawn_by_abuffer(frame, x, y).c_str(), stdout);
     }

@@ -9,6 +9,7 @@
 #include "cli/sheet_wishes.h"
 #include "mesh/model.h"
 #include "mesh/text_scan.h"
+#include "render/picture_notes.h"
 #include "scene/color.h"
 #include "shading/sheet/style_sheet.h"
 
@@ -126,10 +127,7 @@ Scene load_input(const Arguments& a, const std::vector<OutputFile>& outputs) {
         if (a.line_width_px) scene.lines.style.width_px = *a.line_width_px;
         if (!a.line_color.empty()) scene.lines.style.colors.fill(*color_from_hex(a.line_color));
     } else if (!unread.empty() && !a.quiet) {
-        std::string keys;
-        for (const std::string& key : unread) keys += (keys.empty() ? "lines." : ", lines.") + key;
-        std::fprintf(stderr, "burin: note: the style sheet says which lines are drawn and how; %s change%s nothing\n",
-                     keys.c_str(), unread.size() == 1 ? "s" : "");
+        std::fprintf(stderr, "burin: note: %s\n", note_on_unread_keys(unread).c_str());
     }
     if (a.crease_angle_deg) scene.lines.set_crease_angle((*a.crease_angle_deg)[0], (*a.crease_angle_deg)[1]);
     if (a.finds_all && scene.sheet) {

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
+#include <utility>
 #include <vector>
 
+#include "base/parallel.h"
 #include "base/stream_store.h"
-#include "image/image_io.h"
-#include "mesh/text_scan.h"
 #include "methods/abuffer.h"
-#include "render/line_shading.h"
 #include "shading/ink/ink_lines.h"
 #include "shading/ink/line_columns.h"
-#include "shading/ink/stroke_values.h"
+#include "shading/line_shader.h"
 #include "shading/sheet/compiled_sheet.h"
 #include "shading/sheet/style_sheet.h"
 #include "strokes/ink_printer.h"
@@ -21,11 +19,7 @@
 namespace burin {
 namespace {
 
-std::string number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value);
-    return text;
-}
+constexpr const char* kSelect = "its select is false";
 
 double distance_to(glm::dvec2 place, glm::dvec2 a, glm::dvec2 b, double& share) {
     const glm::dvec2 way = b - a;
@@ -34,13 +28,13 @@ double distance_to(glm::dvec2 place, glm::dvec2 a, glm::dvec2 b, double& share) 
     return glm::distance(place, a + way * share);
 }
 
-/// How a value stands in the sheet.
-std::string text_of(const StyleValue& value) {
+/// How a value stands in the sheet; empty: as a constant.
+std::string source_of(const StyleValue& value) {
     switch (value.kind) {
         case StyleValue::Kind::expression:
-            return " = " + printable(value.source.text, 400);
+            return "=" + value.source.text;
         case StyleValue::Kind::ramp:
-            return " = ramp over " + printable(value.source.text, 400);
+            return "ramp over " + value.source.text;
         default:
             return "";
     }
@@ -49,16 +43,16 @@ std::string text_of(const StyleValue& value) {
 /// StrokeExplainer has the strokes that reach a pixel.
 class StrokeExplainer {
   public:
-    StrokeExplainer(const Frame& frame, int x, int y)
+    StrokeExplainer(const Frame& frame, int x, int y, int threads)
         : frame_(frame),
           sheet_(*frame.sheet),
           x_(x),
           y_(y),
           surfaces_({0, 0, frame.width, frame.height}, frame.crop,
                     {true, false, false, false, false, false, false, false, {}}, frame.criteria.classes),
-          found_(found_lines(find_drawing(frame, {}, surfaces_), frame, 0)),
+          found_(lines_for_sheet(find_drawing(frame, {threads}, surfaces_), frame, threads)),
           columns_(found_, sheet_.needs().classes, all_variables()) {
-        inked_ = ink_lines(found_, sheet_, 0, notes_);
+        inked_ = ink_lines(found_, sheet_, threads, notes_);
         inked_.filter = frame.scene->lines.style.filter;
         pixel_ = frame;
         pixel_.crop = {x, y, x + 1, y + 1};
@@ -73,8 +67,8 @@ class StrokeExplainer {
         });
     }
 
-    std::string text() const {
-        std::string text;
+    std::vector<ExplainedStroke> strokes() const {
+        std::vector<ExplainedStroke> strokes;
         std::vector<std::size_t> drawn;
         double before = 0;
         for (const std::size_t i : near_) {
@@ -82,10 +76,12 @@ class StrokeExplainer {
             if (covers == 0) continue;
             drawn.push_back(i);
             const double all = ink_of(drawn);
-            text += describe(drawn.size(), inked_.strokes[i], covers, std::max(all - before, 0.0));
+            strokes.push_back(explained(inked_.strokes[i]));
+            strokes.back().covers = covers;
+            strokes.back().shows = std::max(all - before, 0.0);
             before = all;
         }
-        return text.empty() ? "the style sheet draws nothing in this pixel\n" : text;
+        return strokes;
     }
 
   private:
@@ -148,10 +144,9 @@ class StrokeExplainer {
         return best;
     }
 
-    std::string name_of_owner(std::uint32_t object, std::uint32_t material) const {
-        std::string name = object == 0 ? "background" : printable(found_.objects[object - 1].name, 100);
-        if (material != 0) name += "/" + printable(found_.materials[material - 1], 100);
-        return name;
+    ExplainedSide side_of(std::uint32_t object, std::uint32_t material) const {
+        return {object, material, object == 0 ? "" : found_.objects[object - 1].name,
+                material == 0 ? "" : found_.materials[material - 1]};
     }
 
     /// Why a set does not take a piece; empty: it does, or its `select` is false.
@@ -171,68 +166,66 @@ class StrokeExplainer {
         if (set.has_material_globs && !has(set.materials, sides.front_material) &&
             !has(set.materials, sides.other_material))
             return "no material fits its materials";
-        return "its select is false";
+        return kSelect;
     }
 
-    std::string describe(std::size_t rank, const InkStroke& stroke, double covers, double shows) const {
+    ExplainedStroke explained(const InkStroke& stroke) const {
         const LineSample sample = sample_of(stroke);
         const LinePiece& piece = found_.runs.pieces[sample.piece].piece;
         const LineRun& run = found_.runs.runs[sample.run];
         const LineSides& sides = found_.sides[sample.piece];
         const CompiledSet& set = sheet_.sets()[stroke.order.set];
-        const SheetStyle& style = frame_.scene->sheet->styles[set.style];
-        std::string text = std::to_string(rank) + " set " + printable(set.name, 100);
-        std::string refusals;
+        ExplainedStroke result;
+        result.set = set.name;
+        result.style = frame_.scene->sheet->styles[set.style].name;
         for (std::uint32_t earlier = 0; earlier < stroke.order.set; ++earlier) {
             const CompiledSet& other = sheet_.sets()[earlier];
-            if (other.also && refusal(other, sample) == "its select is false" && !other.has_select) continue;
-            refusals += (refusals.empty() ? " (" : "; ") + printable(other.name, 100) + ": " + refusal(other, sample);
+            const std::string reason = refusal(other, sample);
+            if (other.also && reason == kSelect && !other.has_select) continue;
+            result.earlier_sets.push_back({other.name, reason});
         }
-        if (!refusals.empty()) text += refusals + ")";
-        text += ", style " + printable(style.name, 100) + ": " +
-                std::string(name_of(sheet_.class_of(piece.classes).value_or(piece.drawn_as))) + " of " +
-                name_of_owner(sides.front_object, sides.front_material);
-        if (sides.other_object != sides.front_object || sides.is_beyond)
-            text += (sides.is_beyond ? " before " : " and ") + name_of_owner(sides.other_object, sides.other_material);
-        if (piece.invisibility > 0) text += ", behind " + std::to_string(piece.invisibility);
-        text += ", chain " + std::to_string(sample.run) + ", s " + number(columns_.at_of(sample)) + " of " +
-                number(run.chain_length_px) + " px\n";
-        text += "    covers " + number(covers) + ", shows " + number(shows);
-        return text + values_of(stroke, sample, style) + "\n";
+        result.drawn_as = sheet_.class_of(piece.classes).value_or(piece.drawn_as);
+        result.front = side_of(sides.front_object, sides.front_material);
+        result.other = side_of(sides.other_object, sides.other_material);
+        result.other_is_behind = sides.is_beyond;
+        result.invisibility = piece.invisibility;
+        result.chain = sample.run;
+        result.copy = static_cast<std::uint32_t>(stroke.chain & 7);
+        result.s_px = columns_.at_of(sample);
+        result.length_px = run.chain_length_px;
+        add_values(stroke, sample, result);
+        return result;
     }
 
-    std::string values_of(const InkStroke& stroke, const LineSample& sample, const SheetStyle& style) const {
+    void add_values(const InkStroke& stroke, const LineSample& sample, ExplainedStroke& to) const {
+        const CompiledSet& set = sheet_.sets()[stroke.order.set];
+        const SheetStyle& style = frame_.scene->sheet->styles[set.style];
         const CompiledStyle& compiled = sheet_.style_of(stroke.order.set);
-        const SampleVariant variant{compiled.settings.seed, static_cast<std::uint32_t>(stroke.chain & 7),
-                                    sheet_.sets()[stroke.order.set].name};
-        StrokeValues values(columns_, compiled, variant, sheet_.sets()[stroke.order.set].test.get());
+        const SampleVariant variant{compiled.settings.seed, to.copy, set.name};
+        StrokeValues values(columns_, compiled, variant, set.test.get());
         const LineStretch stretch{sample.run, sample.piece, 1};
         const std::vector<ChainValues> chains = values.chain_values({&stretch, 1});
         const ChainValues* const chain = &chains.front();
         std::vector<InkValues> ink;
         values.evaluate({&sample, 1}, {&chain, 1}, ink);
-        const auto byte = [](float linear) {
-            return static_cast<unsigned>(std::lround(srgb_from_linear(std::clamp(linear, 0.0f, 1.0f)) * 255.0f));
-        };
-        char color[16];
-        std::snprintf(color, sizeof color, "#%02x%02x%02x", byte(ink[0].color.r), byte(ink[0].color.g),
-                      byte(ink[0].color.b));
-        std::string text = "\n    width " + number(ink[0].width_px) + " px" + text_of(style.width);
-        text += "\n    opacity " + number(ink[0].opacity) + text_of(style.opacity);
-        text += "\n    color " + std::string(color) + text_of(style.color);
-        if (ink[0].offset_px != 0) text += "\n    offset " + number(ink[0].offset_px) + " px" + text_of(style.offset);
-        SampleColumns read;
-        columns_.fill({&sample, 1}, compiled.variables, variant, read);
-        std::string variables;
-        for (const VariableRow& row : variable_table()) {
-            for (std::size_t k = 0; k < component_count(row.type); ++k) {
-                if (!compiled.variables.has(row.variable, k)) continue;
-                variables += (variables.empty() ? "" : ", ") + std::string(row.name);
-                if (component_count(row.type) == 3) variables += std::string(".") + "xyz"[k];
-                variables += " " + number(read.of(row.variable, k)[0]);
-            }
+        to.ink = ink.front();
+        to.sources = {source_of(style.width), source_of(style.opacity), source_of(style.offset),
+                      source_of(style.color)};
+        if (style.shader) to.shader = style.shader->text;
+        VariableSet variables = compiled.variables;
+        if (set.test) {
+            to.test = frame_.scene->sheet->sets[stroke.order.set].test->text;
+            variables |= set.test->needs();
         }
-        return variables.empty() ? text : text + "\n    where " + variables;
+        SampleColumns read;
+        columns_.fill({&sample, 1}, variables, variant, read);
+        for (const VariableRow& row : variable_table()) {
+            ExplainedVariable variable{std::string(row.name), {}, component_count(row.type) == 3};
+            for (std::size_t k = 0; k < component_count(row.type); ++k) {
+                if (variables.has(row.variable, k)) variable.components.emplace_back(k, read.of(row.variable, k)[0]);
+            }
+            if (!variable.components.empty()) to.variables.push_back(std::move(variable));
+        }
     }
 
     const Frame& frame_;
@@ -249,6 +242,8 @@ class StrokeExplainer {
 
 }  // namespace
 
-std::string explain_strokes(const Frame& frame, int x, int y) { return StrokeExplainer(frame, x, y).text(); }
+std::vector<ExplainedStroke> explain_strokes(const Frame& frame, int x, int y, int threads) {
+    return StrokeExplainer(frame, x, y, resolve_thread_count(threads)).strokes();
+}
 
 }  // namespace burin

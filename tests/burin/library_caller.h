@@ -22,6 +22,7 @@ class LibraryCaller {
   public:
     explicit LibraryCaller(Choices& random) : random_(random), scene_(burin_scene_new()) {
         if (burin_set(scene_, "picture.size=[12, 9]") != 0) random_.fail("the size cannot be set");
+        add_shaders();
     }
     LibraryCaller(const LibraryCaller&) = delete;
     LibraryCaller& operator=(const LibraryCaller&) = delete;
@@ -60,6 +61,7 @@ class LibraryCaller {
             case 11:
                 burin_object_name(scene_, number_of(9));
                 burin_note(scene_, static_cast<int>(integer()));
+                if (burin_explain(scene_, nullptr, nullptr, 6, 4, "json") == nullptr) expect_told(burin_error_kind());
                 return burin_cancel(scene_);
             case 12:
                 return encode();
@@ -219,7 +221,33 @@ class LibraryCaller {
              "[[set]]\nname=\"a\"\nclasses=[\"crease\",\"border\"]\nstyle=\"i\"\n[style.i]\nwidth=\"=1/0*(x-x)+3\"\n",
              "[[set]]\nname=\"a\"\nclasses=[\"silhouette\"]\nlayer=true\nstyle=\"i\"\n[style.i]\nopacity=0.5\n"
              "color=\"=N\"\ntaper={start=9}\n",
-             "[[set]]\nname=\"a\"\nclasses=[\"crease\"]\nstyle=\"i\"\n[style.i]\nwidth=\"=depht\"\n"});
+             "[[set]]\nname=\"a\"\nclasses=[\"crease\"]\nstyle=\"i\"\n[style.i]\nwidth=\"=depht\"\n",
+             "[[set]]\nname=\"a\"\nclasses=[\"crease\",\"silhouette\"]\ntest=\"wild\"\nstyle=\"i\"\n[style.i]\n"
+             "shader=\"wild\"\n"});
+    }
+
+    /// Adds callbacks that leave numbers of any kind.
+    void add_shaders() {
+        const burin_line_shader shader = [](const burin_line_samples* in, burin_line_ink* out, void*) {
+            fill(out->width_px, in->count, 0);
+            fill(out->offset_px, in->count, 1);
+            fill(out->opacity, in->count, 2);
+            fill(out->blue, in->count, 5);
+            return 0;
+        };
+        const burin_line_test test = [](const burin_line_samples* in, float* strength, void*) {
+            fill(strength, in->count, 3);
+            return 0;
+        };
+        if (burin_add_line_shader(scene_, "wild", "N, C.r, s", shader, nullptr) != 0 ||
+            burin_add_line_test(scene_, "wild", "gap, facing, qi", test, nullptr) != 0)
+            random_.fail("shaders cannot be added");
+    }
+    static void fill(float* to, std::uint32_t count, std::uint32_t from) {
+        using Limits = std::numeric_limits<float>;
+        constexpr float kNumbers[] = {
+            Limits::quiet_NaN(), 3, Limits::infinity(), -Limits::infinity(), 0.5f, Limits::max(), -0.0f, 1e-40f, -7};
+        for (std::uint32_t i = 0; i < count; ++i) to[i] = kNumbers[(i + from) % 9];
     }
 
     void render() {

@@ -189,6 +189,41 @@ TEST(LibraryLineShader, NumbersAreBroughtToTheirRangesAndNotesSayWhereTheyWereNo
     EXPECT_EQ(from.render(kView).notes().size(), 0u);
 }
 
+/// What the program prints as notes on a picture is there, and nothing else.
+TEST(LibraryNotes, ArePicturesOwn) {
+    Scene from;
+    Arrays marked = cube();
+    marked.marks = {0, 6, 1, 7};  // no edges of polygons
+    from.add(marked.mesh("marked"));
+    const std::string missing = "the class mark is not drawn, and so 2 lines of the input are missing; lines.draw=";
+    from.set("lines.draw=crease,mark");
+    EXPECT_TRUE(from.render(kView).notes().empty());
+    from.set("lines.draw=crease");
+    ASSERT_EQ(from.render(kView).notes().size(), 1u);
+    EXPECT_EQ(from.render(kView).notes()[0], missing + "mark,crease has it, too");
+    const Drawing drawing = from.find_lines(kView);
+    EXPECT_EQ(drawing.draw().notes(), from.render(kView).notes());
+
+    from.set("lines.width=2");
+    from.set_style(sheet("width = 1"));
+    const std::vector<std::string> notes = from.render(kView).notes();
+    ASSERT_EQ(notes.size(), 2u);
+    EXPECT_EQ(notes[0].find("the style sheet says which lines are drawn and how; lines."), 0u) << notes[0];
+    EXPECT_EQ(notes[1], "no set of the style sheet draws the class mark, and so 2 lines of the input are missing");
+    EXPECT_EQ(from.find_lines(kView).draw().notes(), notes);
+    EXPECT_TRUE(from.find_lines(kView).draw(sheet("width = 2")).notes().empty());
+
+    Scene nothing = scene();
+    View away = kView;
+    away.camera_to_world = looking({0, 0, 9}, {0, 0, 10});
+    EXPECT_EQ(nothing.render(away).notes(),
+              std::vector<std::string>{"no sample of the picture sees a surface; does the camera look at the scene?"});
+    EXPECT_EQ(burin_picture_note(nullptr, 0), nullptr);
+    const Picture picture = nothing.render(away);
+    EXPECT_EQ(burin_picture_note(picture.get(), -1), nullptr);
+    EXPECT_EQ(burin_picture_note(picture.get(), 1), nullptr);
+}
+
 /// Samples come in batches that nobody chooses; threads and crops change nothing.
 TEST(LibraryLineShader, PicturesDependOnNoThreadsAndCrops) {
     Scene from = scene();
