@@ -9,7 +9,7 @@
 namespace burin::test {
 namespace {
 
-constexpr View kView{.width = 160, .height = 120};
+const View kView{.width = 160, .height = 120};
 /// A box that fills 100 x 100 pixels in the middle: its left side lies at x = 30.
 constexpr const char* kScene = R"(
 [camera]

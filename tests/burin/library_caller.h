@@ -61,7 +61,7 @@ class LibraryCaller {
             case 11:
                 burin_object_name(scene_, number_of(9));
                 burin_note(scene_, static_cast<int>(integer()));
-                if (burin_explain(scene_, nullptr, nullptr, 6, 4, "json") == nullptr) expect_told(burin_error_kind());
+                explain();
                 return burin_cancel(scene_);
             case 12:
                 return encode();
@@ -226,6 +226,11 @@ class LibraryCaller {
              "shader=\"wild\"\n"});
     }
 
+    /// Only now and then, since it takes long.
+    void explain() {
+        if (++explanations_ % 16 != 0) return;
+        if (burin_explain(scene_, nullptr, nullptr, 6, 4, "json") == nullptr) expect_told(burin_error_kind());
+    }
     /// Adds callbacks that leave numbers of any kind.
     void add_shaders() {
         const burin_line_shader shader = [](const burin_line_samples* in, burin_line_ink* out, void*) {
@@ -340,7 +345,7 @@ class LibraryCaller {
     Choices& random_;
     burin_scene* scene_;
     burin_picture* picture_ = nullptr;
-    int pictures_ = 0;
+    int pictures_ = 0, explanations_ = 0;
 };
 
 }  // namespace burin::test

@@ -15,7 +15,7 @@
 namespace burin::test {
 namespace {
 
-constexpr View kView{.width = 160, .height = 120};
+const View kView{.width = 160, .height = 120};
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
 
 /// One set of all lines; `more` are keys of its style, `of_set` of the set.

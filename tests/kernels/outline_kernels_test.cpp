@@ -112,5 +112,34 @@ TEST(OutlineKernels, FindWhereWalksLeaveSurfaces) {
     EXPECT_GT(level, 100u);
 }
 
+/// Eight walks are taken at once. Where the first walk takes no step at all, what stands as its exit is none of the
+/// mesh, and must not be looked up for lanes that have no walk.
+TEST(OutlineKernels, LanesWithoutAWalkReadNothingOfTheFirst) {
+    const auto found = std::make_unique<WalkOutlines>();
+    std::size_t outlines = 0;
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+        Random random(seed);
+        Walked given(random);
+        MeshWalks& walks = *given.walks;
+        walks.ended_count = seed % 8;
+        const auto exits = static_cast<int>(given.corners.size());
+        for (std::size_t i = 0; i < walks.ended_count; ++i) {
+            walks.end_step[i] = static_cast<std::uint32_t>(i + 1);
+            walks.exit[i + 1] = static_cast<std::uint32_t>(random.integer(0, exits - 1));
+            walks.left[i + 1] = 0.5;
+        }
+        for (const TileKernels* kernels : all_kernels()) {
+            walks.exit[0] = 0;
+            kernels->walk.find_outlines(given.mesh, walks, 32, 0, *found);
+            const std::size_t count = found->count;
+            walks.exit[0] = 0xF0000000u;
+            kernels->walk.find_outlines(given.mesh, walks, 32, 0, *found);
+            EXPECT_EQ(found->count, count) << kernels->name << ", seed " << seed;
+            outlines += count;
+        }
+    }
+    EXPECT_GT(outlines, 100u);
+}
+
 }  // namespace
 }  // namespace burin
