@@ -17,7 +17,7 @@ namespace {
 constexpr float kMostColor = 65504;  // the largest half
 constexpr std::array<std::string_view, kSurfaceVariableCount> kNames = {
     "x", "y", "depth", "distance", "px_size", "P", "PO", "N", "facing", "light", "lit", "C", "object", "material"};
-constexpr auto kLater = std::to_array<std::string_view>({"u", "v", "Cv", "attr", "kr"});
+constexpr auto kLaterOnSurfaces = std::to_array<std::string_view>({"u", "v", "Cv", "attr", "kr"});
 
 std::optional<SurfaceVariable> surface_variable_named(std::string_view name) {
     const auto* const at = std::find(kNames.begin(), kNames.end(), name);
@@ -33,7 +33,7 @@ ExpressionSymbols surface_symbols(const SheetContext& context) {
         symbols.variables.push_back({"lit"});
     for (ExpressionVariable& v : symbols.variables) v.rate = ValueRate::sample;
     symbols.later.clear();
-    for (const std::string_view name : kLater) symbols.later.emplace_back(name);
+    for (const std::string_view name : kLaterOnSurfaces) symbols.later.emplace_back(name);
     return symbols;
 }
 
