@@ -1,13 +1,13 @@
 #pragma once
 
 #include "burin/drawing.h"
-#include "shading/ink/inked_lines.h"
+#include "shading/ink/ink_lines.h"
 
 namespace burin {
 
 /// Makes ink of a drawing's lines, which were found for a style sheet. `style`: the text of another sheet, its name or
 /// file; nullptr: the sheet that they were found for. Throws InputError for a sheet that is wrong, UsageError for one
 /// that needs more than the drawing has.
-InkedLines inked_lines_of(const burin_drawing& drawing, const char* style, int threads);
+InkedLines inked_lines_of(const burin_drawing& drawing, const char* style, int threads, const InkWishes& wishes = {});
 
 }  // namespace burin

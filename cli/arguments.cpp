@@ -28,6 +28,7 @@ struct Texts {
         supersample;
     std::string width, color, dpi, frame, save_lines, find, crease, hidden, style, layers, frames, crop, threads,
         memory, model_memory, stats, bits;
+    std::string tolerance, dashes, group, ids;
     std::string repeat, progress, pixel, background, methods, compare_frames;
     std::vector<std::string> sets;
     int verbose = 0;
@@ -39,7 +40,16 @@ void add_file_options(CLI::App& app, Texts& t) {
     app.add_option("-o,--output", t.output,
                    "file to write: " + suffixes_of_formats() + " (default: INPUT's name with .png)");
     app.add_option("--bits", t.bits, "bits per value of PNG and TIFF, 8 (default) or 16");
-    app.add_option("--background", t.background, "colour of the paper of PNG and TIFF, #rrggbb, or transparent");
+    app.add_option("--background", t.background,
+                   "colour of the paper of PNG, TIFF and vector files, #rrggbb, or transparent");
+    app.add_option("--tolerance", t.tolerance,
+                   "vector files: how far curves may be from lines, in pixels, 0.001 to 10 (default 0.02)");
+    app.add_option("--dashes", t.dashes,
+                   "vector files: pattern (default), the viewer cuts dashes, or real, each dash is a path");
+    app.add_option("--group", t.group,
+                   "vector files: what is grouped within visible and hidden lines: class (default), object, or qi, a "
+                   "layer for each number of surfaces in front");
+    app.add_option("--ids", t.ids, "vector files: paths have ids and data-* (all, default), or none");
     app.add_option("--stats", t.stats, "write times and counts as JSON to this file; - = standard output");
 }
 
@@ -354,6 +364,25 @@ void fill_render_options(const Texts& t, Arguments& a) {
     a.finds_all = t.find == "all";
 }
 
+void fill_vector_options(const Texts& t, Arguments& a) {
+    if (!t.tolerance.empty()) {
+        a.tolerance_px = number("--tolerance", t.tolerance);
+        if (!(a.tolerance_px >= 0.001 && a.tolerance_px <= 10)) fail("--tolerance", "must be from 0.001 to 10 pixels");
+    }
+    if (!t.dashes.empty() && t.dashes != "pattern" && t.dashes != "real") fail("--dashes", "must be pattern or real");
+    a.cuts_dashes = t.dashes == "real";
+    if (t.group == "object") {
+        a.grouping = VectorGrouping::object;
+    } else if (t.group == "qi") {
+        a.grouping = VectorGrouping::invisibility;
+    } else if (!t.group.empty() && t.group != "class") {
+        fail("--group", "must be class, object or qi");
+    }
+    if (!t.ids.empty() && t.ids != "all" && t.ids != "none") fail("--ids", "must be all or none");
+    a.names_paths = t.ids != "none";
+    a.has_vector_options = !(t.tolerance.empty() && t.dashes.empty() && t.group.empty() && t.ids.empty());
+}
+
 /// Known methods, each once, in the order given.
 std::vector<std::string> method_names(std::string_view text) {
     std::vector<std::string> names;
@@ -458,6 +487,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
                                : Command::explain;
         fill_scene_options(t, a);
         fill_render_options(t, a);
+        fill_vector_options(t, a);
         if (*compare) fill_compare_options(t, a);
         if (*explain) a.pixel = integers<2>("--pixel", t.pixel, ',', "X,Y");
     }

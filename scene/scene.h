@@ -85,6 +85,8 @@ struct Scene {
     std::shared_ptr<const StyleSheet> sheet;
     /// Beside a sheet: lines are found and known as if it asked for everything, so that any sheet can restyle them.
     bool finds_all = false;
+    /// Beside a sheet: chains and how many surfaces hide a line are known, too, for vector files name lines by them.
+    bool names_lines = false;
     SurfaceStyle surfaces;
     AbufferSettings abuffer;
     PatelSettings patel;

@@ -1,0 +1,39 @@
+#include "cli/vector_output.h"
+
+#include "base/atomic_file.h"
+#include "output/svg.h"
+#include "shading/ink/ink_lines.h"
+
+namespace burin {
+
+VectorDrawing draw_paths(const FoundLines& lines, const Frame& frame, const Arguments& a, VectorStats& stats,
+                         std::vector<std::string>& notes) {
+    const InkedLines inked = ink_lines(lines, *frame.sheet, a.threads, notes, {true, a.cuts_dashes});
+    VectorOptions options;
+    options.tolerance_px = a.tolerance_px;
+    options.grouping = a.grouping;
+    options.crop = frame.crop;
+    VectorDrawing drawing = vector_drawing_of(inked, lines, options, stats);
+    const PictureSettings& picture = frame.scene->picture;
+    drawing.paper = picture.background;
+    if (!drawing.paper && !picture.transparent) drawing.paper = glm::vec3(1.0f);
+    return drawing;
+}
+
+void write_vector(const VectorDrawing& drawing, const Arguments& a, const OutputOptions& output) {
+    const std::string text = svg_of(drawing, {a.names_paths});
+    AtomicFile file(output.path);
+    file.write(text.data(), text.size());
+    file.commit();
+}
+
+void add_stages(JsonWriter& json, const VectorStats& stats) {
+    json.key("chain").value(stats.chain_s).key("clean").value(stats.clean_s).key("fit").value(stats.fit_s);
+}
+
+void add_counts(JsonWriter& json, const VectorStats& stats) {
+    json.key("strokes").value(std::uint64_t{stats.strokes}).key("chained").value(std::uint64_t{stats.chained});
+    json.key("paths").value(std::uint64_t{stats.paths});
+}
+
+}  // namespace burin
