@@ -5,39 +5,53 @@
 
 #include "base/stopwatch.h"
 #include "output/paths/chain_paths.h"
+#include "output/paths/clean_paths.h"
+#include "output/paths/fit_path.h"
 #include "output/paths/path_lines.h"
-#include "output/paths/simplify.h"
 
 namespace burin {
 namespace {
 
-/// Puts what is to be one group next to each other, and begins groups.
-void add_groups(PathLines& lines, VectorDrawing& drawing) {
-    if (drawing.grouping == VectorGrouping::object) {
-        std::stable_sort(lines.lines.begin(), lines.lines.end(), [](const PathLine& a, const PathLine& b) {
-            // Hidden ones lie below visible ones, whatever the object.
-            return std::tuple(!a.kind.order.is_hidden, a.object) < std::tuple(!b.kind.order.is_hidden, b.object);
-        });
+/// Puts what is to be one group next to each other.
+void sort_to_groups(VectorGrouping grouping, std::vector<PathLine>& lines) {
+    if (grouping != VectorGrouping::object) return;
+    std::stable_sort(lines.begin(), lines.end(), [](const PathLine& a, const PathLine& b) {
+        // Hidden ones lie below visible ones, whatever the object.
+        return std::tuple(!a.kind.order.is_hidden, a.object) < std::tuple(!b.kind.order.is_hidden, b.object);
+    });
+}
+
+VectorGroup group_of(VectorGrouping grouping, const PathLine& line) {
+    VectorGroup group;
+    group.is_hidden = line.kind.order.is_hidden;
+    group.invisibility = line.kind.invisibility;
+    if (grouping == VectorGrouping::object) {
+        group.object = line.object;
+    } else {
+        group.set = line.kind.order.set;
+        group.line_class = line.kind.order.drawn_as;
     }
-    for (std::size_t i = 0; i < lines.lines.size(); ++i) {
-        const PathLine& line = lines.lines[i];
-        VectorGroup group;
-        group.is_hidden = line.kind.order.is_hidden;
-        group.invisibility = line.kind.invisibility;
-        if (drawing.grouping == VectorGrouping::object) {
-            group.object = line.object;
-        } else {
-            group.set = line.kind.order.set;
-            group.line_class = line.kind.order.drawn_as;
-        }
-        const auto key = [](const VectorGroup& g) {
-            return std::tuple(g.is_hidden, g.invisibility, g.set, g.line_class, g.object);
-        };
-        if (drawing.groups.empty() || key(drawing.groups.back()) != key(group)) {
-            group.first_path = i;
-            drawing.groups.push_back(group);
-        }
+    return group;
+}
+
+bool is_one_group(const VectorGroup& a, const VectorGroup& b) {
+    const auto key = [](const VectorGroup& g) {
+        return std::tuple(g.is_hidden, g.invisibility, g.set, g.line_class, g.object);
+    };
+    return key(a) == key(b);
+}
+
+/// Adds a path, in several ones if it has more steps than all programs take.
+void add_in_parts(VectorPath path, VectorDrawing& drawing) {
+    const std::size_t end = path.first_step + path.step_count;
+    if (path.step_count > kMostPathSteps) path.is_closed = false;
+    for (std::size_t begin = path.first_step;; begin += kMostPathSteps) {
+        path.first_step = begin;
+        path.step_count = std::min(end - begin, kMostPathSteps);
+        drawing.paths.push_back(path);
         ++drawing.groups.back().path_count;
+        if (begin + path.step_count >= end) return;
+        path.start = drawing.steps[begin + path.step_count - 1].to;
     }
 }
 
@@ -61,16 +75,20 @@ VectorDrawing vector_drawing_of(const InkedLines& inked, const FoundLines& found
     lines = chained_paths(lines);
     stats.chained = lines.lines.size();
     stats.chain_s = watch.lap();
+    // Of what is left, other lines are the only ones that go on in each other.
+    lines = chained_paths(cleaned_paths(lines, {0, 0, found.width_px, found.height_px}));
     stats.clean_s = watch.lap();
 
-    add_groups(lines, drawing);
+    sort_to_groups(options.grouping, lines.lines);
     drawing.styles = lines.styles;
-    std::vector<glm::dvec2> points;
     for (const PathLine& line : lines.lines) {
-        points.clear();
-        simplify(lines.points_of(line), options.tolerance_px, points);
+        VectorGroup group = group_of(options.grouping, line);
+        if (drawing.groups.empty() || !is_one_group(drawing.groups.back(), group)) {
+            group.first_path = drawing.paths.size();
+            drawing.groups.push_back(group);
+        }
         VectorPath path;
-        path.start = points.front();
+        path.start = lines.points_of(line).front();
         path.first_step = drawing.steps.size();
         path.is_closed = line.is_closed;
         path.style = line.kind.style;
@@ -79,13 +97,9 @@ VectorDrawing vector_drawing_of(const InkedLines& inked, const FoundLines& found
         path.dash_phase_px = line.dash_phase_px;
         path.first_edge = line.first_edge;
         path.edge_count = line.edge_count;
-        for (std::size_t i = 1; i < points.size(); ++i) {
-            PathStep step;
-            step.to = points[i];
-            drawing.steps.push_back(step);
-        }
+        fit_path(lines.points_of(line), line.is_closed, options.tolerance_px, drawing.steps);
         path.step_count = drawing.steps.size() - path.first_step;
-        drawing.paths.push_back(path);
+        add_in_parts(path, drawing);
     }
     drawing.edges = std::move(lines.edges);
     stats.paths = drawing.paths.size();

@@ -41,6 +41,9 @@ struct PathStep {
     glm::dvec2 a{0.0}, b{0.0};
 };
 
+/// Some programs take no longer paths.
+constexpr std::size_t kMostPathSteps = 31999;
+
 /// A path, and which line it is.
 struct VectorPath {
     glm::dvec2 start{0.0};  ///< in pixels of the whole picture
