@@ -105,6 +105,14 @@ bool fit_arcs(const SmoothPart& part, std::vector<PathStep>& steps) {
         return std::atan2((cosine * off.y - sine * off.x) / ellipse->radii[1],
                           (cosine * off.x + sine * off.y) / ellipse->radii[0]);
     };
+    for (const glm::dvec2 p : points) {
+        const glm::dvec2 off = p - ellipse->center;
+        const glm::dvec2 own = glm::dvec2(cosine * off.x + sine * off.y, cosine * off.y - sine * off.x);
+        const glm::dvec2 squares(ellipse->radii[0] * ellipse->radii[0], ellipse->radii[1] * ellipse->radii[1]);
+        // How far the point is off to first order.
+        const double value = own.x * own.x / squares.x + own.y * own.y / squares.y - 1;
+        if (std::abs(value) > 2 * 1.5 * part.tolerance_px * glm::length(own / squares)) return false;
+    }
     double sweep = 0;
     for (std::size_t i = 1; i < points.size(); ++i)
         sweep += std::remainder(angle_of(points[i]) - angle_of(points[i - 1]), 2 * kPi);

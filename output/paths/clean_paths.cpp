@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "output/paths/part_grid.h"
-#include "output/paths/simplify.h"
 
 namespace burin {
 namespace {
@@ -89,16 +88,17 @@ class Cleaner {
         } else {
             keep_rest(number, points);
         }
-        for (std::size_t i = 0; i + 1 < points.size(); ++i) grid_.add({points[i], points[i + 1], number});
+        for (std::size_t i = 0; i + 1 < points.size(); ++i) grid_.add(points[i], points[i + 1], number);
     }
 
     bool is_near(std::uint32_t number, glm::dvec2 p, double reach_px, const glm::dvec2* way) const {
         return grid_.any_near(p, reach_px, [&](const PartGrid::Part& part) {
-            if (!covers(part.line, number) || distance_to_part(p, part.from, part.to) > reach_px) return false;
-            if (way == nullptr) return true;
-            const glm::dvec2 along = part.to - part.from;
-            const double cross = way->x * along.y - way->y * along.x;
-            return cross * cross < kParallelSine * kParallelSine * glm::dot(along, along);
+            if (part.line == number) return false;
+            if (way != nullptr) {
+                const double cross = way->x * part.way.y - way->y * part.way.x;
+                if (cross * cross >= kParallelSine * kParallelSine * part.square) return false;
+            }
+            return part.square_distance(p) <= reach_px * reach_px && covers(part.line, number);
         });
     }
     /// Whether the pens of others that were kept pass over all points.

@@ -10,6 +10,10 @@ namespace burin {
 namespace {
 
 constexpr int kRounds = 4;
+/// Between places where a curve is looked at it is off by no more than this share of the tolerance.
+constexpr double kSampledShare = 0.05;
+/// A first cubic that is so many tolerances off does not become good enough.
+constexpr double kHopelessTimes = 16;
 
 struct Cubic {
     glm::dvec2 a, b, c, d;
@@ -50,35 +54,48 @@ Cubic best_cubic(const SmoothPart& part, std::span<const double> at, double leng
     return {p.front(), p.front() + part.begin_way * begin, p.back() + part.end_way * end, p.back()};
 }
 
-Cubic fitted_cubic(const SmoothPart& part) {
+/// A cubic and how far it is from the points at their parameters, which is more than the distance; the worst one.
+struct Fit {
+    Cubic cubic{};
+    double off_px = 0;
+    std::size_t worst = 0;
+};
+
+Fit fitted_cubic(const SmoothPart& part, std::vector<double>& at) {
     const std::span<const glm::dvec2> p = part.points;
-    std::vector<double> at(p.size(), 0.0);
+    at.assign(p.size(), 0.0);
     for (std::size_t k = 1; k < p.size(); ++k) at[k] = at[k - 1] + glm::distance(p[k - 1], p[k]);
     const double length = at.back();
     for (double& t : at) t /= length;
-    Cubic cubic{};
+    Fit fit;
     double before = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kRounds; ++round) {
-        cubic = best_cubic(part, at, length);
+        fit.cubic = best_cubic(part, at, length);
         // One step of Newton's method towards the nearest place on the curve.
         double worst = 0;
         for (std::size_t k = 1; k + 1 < p.size(); ++k) {
-            const glm::dvec2 off = cubic.at(at[k]) - p[k], first = cubic.first(at[k]);
-            worst = std::max(worst, glm::dot(off, off));
-            const double slope = glm::dot(first, first) + glm::dot(off, cubic.second(at[k]));
+            const glm::dvec2 off = fit.cubic.at(at[k]) - p[k], first = fit.cubic.first(at[k]);
+            const double square = glm::dot(off, off);
+            if (square > worst) {
+                worst = square;
+                fit.worst = k;
+            }
+            const double slope = glm::dot(first, first) + glm::dot(off, fit.cubic.second(at[k]));
             if (std::abs(slope) > 1e-12) at[k] = std::clamp(at[k] - glm::dot(off, first) / slope, 0.0, 1.0);
         }
-        if (worst >= 0.9 * before) break;
+        fit.off_px = std::sqrt(worst);
+        if (fit.off_px > kHopelessTimes * part.tolerance_px || worst >= 0.9 * before) break;
         before = worst;
     }
-    return cubic;
+    return fit;
 }
 
 /// Adds places on a cubic between which it is straight to a small part of the tolerance, but for its first one.
 void add_places(const Cubic& cubic, double tolerance_px, std::vector<glm::dvec2>& out) {
     const double bend =
         std::max(glm::length(cubic.a - 2.0 * cubic.b + cubic.c), glm::length(cubic.b - 2.0 * cubic.c + cubic.d));
-    const int parts = std::clamp(static_cast<int>(std::ceil(std::sqrt(0.75 * bend / (0.1 * tolerance_px)))), 4, 1024);
+    const int parts =
+        std::clamp(static_cast<int>(std::ceil(std::sqrt(0.75 * bend / (kSampledShare * tolerance_px)))), 4, 1024);
     for (int i = 1; i <= parts; ++i) out.push_back(cubic.at(static_cast<double>(i) / parts));
 }
 
@@ -88,7 +105,7 @@ std::size_t worst_point(std::span<const glm::dvec2> curve, const SmoothPart& par
     const std::span<const glm::dvec2> p = part.points;
     // Both run the same way, so it is enough to look a little ahead.
     constexpr std::size_t kAhead = 8;
-    double worst = 1;  // in tolerances
+    double worst = 1 - kSampledShare;  // in tolerances
     std::size_t at = 0;
     const auto inner = [&](std::size_t point) { return std::clamp<std::size_t>(point, 1, p.size() - 2); };
     std::size_t chord = 0;
@@ -134,6 +151,7 @@ std::size_t worst_point(std::span<const glm::dvec2> curve, const SmoothPart& par
 void fit_cubics(const SmoothPart& whole, std::vector<PathStep>& steps) {
     std::vector<SmoothPart> parts = {whole};  // the next one last
     std::vector<glm::dvec2> places;
+    std::vector<double> parameters;
     const auto add_lines = [&](std::span<const glm::dvec2> points) {
         for (const glm::dvec2 p : points.subspan(1)) {
             PathStep step;
@@ -146,10 +164,15 @@ void fit_cubics(const SmoothPart& whole, std::vector<PathStep>& steps) {
         parts.pop_back();
         const std::span<const glm::dvec2> p = part.points;
         if (p.size() > 3) {
-            const Cubic cubic = fitted_cubic(part);
-            places.assign(1, cubic.a);
-            add_places(cubic, part.tolerance_px, places);
-            const std::size_t at = worst_point(places, part);
+            const Fit fit = fitted_cubic(part, parameters);
+            const Cubic& cubic = fit.cubic;
+            std::size_t at = fit.worst;
+            // Parameters are not exactly those of the nearest places.
+            if (fit.off_px <= 1.5 * part.tolerance_px) {
+                places.assign(1, cubic.a);
+                add_places(cubic, part.tolerance_px, places);
+                at = worst_point(places, part);
+            }
             if (at == 0) {
                 PathStep step;
                 step.kind = PathStep::Kind::cubic;

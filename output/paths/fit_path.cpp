@@ -11,12 +11,55 @@ namespace burin {
 namespace {
 
 constexpr double kCornerCosine = 0.9063;  // of 25 degrees
+/// Points that are so many tolerances off the straight line through their neighbours are none of the curve.
+constexpr double kStraightShare = 0.25;
+/// Straight parts so short are what is left where lines were found piece by piece.
+constexpr double kStubPx = 1.0 / 16;
 /// A straight part that is so much longer than the next one is a line, where a curve begins.
 constexpr double kLongerTimes = 6, kLongerPx = 4;
 
+/// Takes one end of each short part away that the line can do without.
+void remove_stubs(bool is_closed, double tolerance_px, std::vector<glm::dvec2>& points) {
+    const auto can_go = [&](glm::dvec2 before, glm::dvec2 point, glm::dvec2 after) {
+        return distance_to_part(point, before, after) <= tolerance_px;
+    };
+    std::vector<glm::dvec2> kept;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const bool is_inner = i > 0 && i + 1 < points.size();
+        const bool is_short = is_inner && (glm::distance(points[i], points[i + 1]) < kStubPx ||
+                                           glm::distance(points[i], points[i - 1]) < kStubPx);
+        // The point before it is there, so that errors do not add up.
+        if (is_short && kept.back() == points[i - 1] && can_go(points[i - 1], points[i], points[i + 1])) continue;
+        kept.push_back(points[i]);
+    }
+    const std::size_t n = kept.size();
+    if (is_closed && n > 4 &&
+        std::min(glm::distance(kept[0], kept[1]), glm::distance(kept[n - 2], kept[0])) < kStubPx &&
+        can_go(kept[n - 2], kept[0], kept[1])) {
+        kept.erase(kept.begin());
+        kept.back() = kept.front();
+    }
+    points = std::move(kept);
+}
+
+/// Of each part between two points that are left of a line, whether others lay between them: those say that it is
+/// straight there.
+std::vector<char> parts_with_others(std::span<const glm::dvec2> line, std::span<const glm::dvec2> left) {
+    std::vector<char> have(left.size(), 0);
+    auto at = std::find(line.begin(), line.end(), left.front());
+    for (std::size_t i = 1; i < left.size() && at != line.end(); ++i) {
+        const auto next = std::find(at + 1, line.end(), left[i]);
+        have[i - 1] = next != at + 1 ? 1 : 0;
+        at = next;
+    }
+    return have;
+}
+
 class PathFitter {
   public:
-    PathFitter(std::vector<glm::dvec2> points, bool is_closed, double tolerance_px, std::vector<PathStep>& steps)
+    /// `is_straight`: of each part, whether the line is known to be straight there.
+    PathFitter(std::vector<glm::dvec2> points, std::span<const char> is_straight, bool is_closed, double tolerance_px,
+               std::vector<PathStep>& steps)
         : points_(std::move(points)), is_closed_(is_closed), tolerance_px_(tolerance_px), steps_(steps) {
         const std::size_t n = points_.size();
         for (std::size_t i = 0; i + 1 < n; ++i) {
@@ -24,7 +67,7 @@ class PathFitter {
             lengths_.push_back(glm::length(ways_.back()));
         }
         for (std::size_t i = 0; i < n; ++i) is_corner_.push_back(is_corner(i) ? 1 : 0);
-        for (std::size_t i = 0; i + 1 < n; ++i) sags_.push_back(sag(i));
+        for (std::size_t i = 0; i + 1 < n; ++i) sags_.push_back(is_straight[i] != 0 ? 0 : sag(i));
     }
 
     void fit() {
@@ -122,18 +165,22 @@ class PathFitter {
 
 }  // namespace
 
-void fit_path(std::span<const glm::dvec2> line, bool is_closed, double tolerance_px, std::vector<PathStep>& steps) {
+glm::dvec2 fit_path(std::span<const glm::dvec2> line, bool is_closed, double tolerance_px,
+                    std::vector<PathStep>& steps) {
+    is_closed = is_closed && line.front() == line.back();
     std::vector<glm::dvec2> points;
-    for (const glm::dvec2 p : line) {
-        if (points.empty() || p != points.back()) points.push_back(p);
-    }
-    if (points.size() < 2) {  // a dot
+    simplify(line, kStraightShare * tolerance_px, points);
+    remove_stubs(is_closed, tolerance_px, points);
+    const glm::dvec2 start = points.front();
+    if (points.size() == 2 && points[0] == points[1]) {  // a dot
         PathStep step;
-        step.to = line.front();
+        step.to = start;
         steps.push_back(step);
-        return;
+    } else {
+        const std::vector<char> is_straight = parts_with_others(line, points);
+        PathFitter(std::move(points), is_straight, is_closed, (1 - kStraightShare) * tolerance_px, steps).fit();
     }
-    PathFitter(std::move(points), is_closed && line.front() == line.back(), tolerance_px, steps).fit();
+    return start;
 }
 
 }  // namespace burin

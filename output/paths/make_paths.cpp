@@ -88,7 +88,6 @@ VectorDrawing vector_drawing_of(const InkedLines& inked, const FoundLines& found
             drawing.groups.push_back(group);
         }
         VectorPath path;
-        path.start = lines.points_of(line).front();
         path.first_step = drawing.steps.size();
         path.is_closed = line.is_closed;
         path.style = line.kind.style;
@@ -97,7 +96,7 @@ VectorDrawing vector_drawing_of(const InkedLines& inked, const FoundLines& found
         path.dash_phase_px = line.dash_phase_px;
         path.first_edge = line.first_edge;
         path.edge_count = line.edge_count;
-        fit_path(lines.points_of(line), line.is_closed, options.tolerance_px, drawing.steps);
+        path.start = fit_path(lines.points_of(line), line.is_closed, options.tolerance_px, drawing.steps);
         path.step_count = drawing.steps.size() - path.first_step;
         add_in_parts(path, drawing);
     }

@@ -13,30 +13,22 @@ constexpr double kSmallestCellPx = 2, kMostCells = 1 << 22;
 PartGrid::PartGrid(PixelRect area) : area_(area) {
     const double width = std::max(area.width(), 1), height = std::max(area.height(), 1);
     cell_px_ = std::max(kSmallestCellPx, std::sqrt(width * height / kMostCells));
+    cells_per_px_ = 1 / cell_px_;
     columns_ = static_cast<int>(width / cell_px_) + 1;
     rows_ = static_cast<int>(height / cell_px_) + 1;
     first_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), kNone);
 }
 
-int PartGrid::column(double x) const {
-    return static_cast<int>(std::clamp(std::floor((x - area_.x0) / cell_px_), 0.0, columns_ - 1.0));
-}
-
-int PartGrid::row(double y) const {
-    return static_cast<int>(std::clamp(std::floor((y - area_.y0) / cell_px_), 0.0, rows_ - 1.0));
-}
-
-void PartGrid::add(const Part& part) {
+void PartGrid::add(glm::dvec2 from, glm::dvec2 to, std::uint32_t line) {
     const auto number = static_cast<std::uint32_t>(parts_.size());
-    parts_.push_back(part);
+    parts_.push_back({from, to - from, glm::dot(to - from, to - from), line});
     const auto put = [&](int x, int y) {
         std::uint32_t& first = first_[cell(x, y)];
         entries_.push_back({number, first});
         first = static_cast<std::uint32_t>(entries_.size() - 1);
     };
     // Row by row, the columns that the part passes there.
-    const glm::dvec2 &low = part.from.y <= part.to.y ? part.from : part.to,
-                     &high = part.from.y <= part.to.y ? part.to : part.from;
+    const glm::dvec2 &low = from.y <= to.y ? from : to, &high = from.y <= to.y ? to : from;
     const int y0 = row(low.y), y1 = row(high.y);
     const double slope = high.y > low.y ? (high.x - low.x) / (high.y - low.y) : 0;
     for (int y = y0; y <= y1; ++y) {

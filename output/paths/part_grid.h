@@ -16,10 +16,20 @@ class PartGrid {
     explicit PartGrid(PixelRect area);
 
     struct Part {
-        glm::dvec2 from, to;
-        std::uint32_t line;  ///< a number of the caller's
+        glm::dvec2 from, way;  ///< to its other end
+        double square;         ///< of its length
+        std::uint32_t line;    ///< a number of the caller's
+
+        double square_distance(glm::dvec2 p) const {
+            const glm::dvec2 off = p - from;
+            const double along = glm::dot(off, way);
+            if (along <= 0) return glm::dot(off, off);
+            if (along >= square) return glm::dot(off - way, off - way);
+            const double across = off.x * way.y - off.y * way.x;
+            return across * across / square;
+        }
     };
-    void add(const Part& part);
+    void add(glm::dvec2 from, glm::dvec2 to, std::uint32_t line);
 
     /// Calls visit(part) for parts that may come within `reach_px` of a place, at most some cells: some of them twice.
     /// Ends early, and returns true, where visit() returns true.
@@ -42,14 +52,17 @@ class PartGrid {
     struct Entry {
         std::uint32_t part, next;
     };
-    int column(double x) const;
-    int row(double y) const;
+    static int clamped(double at, int count) {
+        return at <= 0 ? 0 : at >= count - 1 ? count - 1 : static_cast<int>(at);
+    }
+    int column(double x) const { return clamped((x - area_.x0) * cells_per_px_, columns_); }
+    int row(double y) const { return clamped((y - area_.y0) * cells_per_px_, rows_); }
     std::size_t cell(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
     }
 
     PixelRect area_;
-    double cell_px_;
+    double cell_px_, cells_per_px_;
     int columns_, rows_;
     std::vector<std::uint32_t> first_;  // of each cell
     std::vector<Entry> entries_;
