@@ -5,6 +5,7 @@
 #include <new>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/lower_extension.h"
 #include "base/parallel.h"
@@ -63,11 +64,11 @@ std::string vector_text(const void* given, const char* style) {
     if (*static_cast<const OutputKind*>(given) != OutputKind::drawing)
         throw UsageError("format: a vector file is made of a drawing of burin_find_lines(), not of a picture");
     const auto& drawing = *static_cast<const burin_drawing*>(given);
-    const InkedLines inked = inked_lines_of(drawing, style, drawing.threads, {true, false});
+    InkedLines inked = inked_lines_of(drawing, style, drawing.threads, {true, false});
     VectorOptions options;
     options.crop = drawing.frame.crop;
     VectorStats stats;
-    VectorDrawing paths = vector_drawing_of(inked, *drawing.found, options, stats);
+    VectorDrawing paths = vector_drawing_of(std::move(inked), *drawing.found, options, stats);
     const PictureSettings& picture = drawing.scene.picture;
     paths.paper = picture.background;
     if (!paths.paper && !picture.transparent) paths.paper = glm::vec3(1.0f);

@@ -139,6 +139,9 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method, b
             "burin: note: --bits and --background are for PNG and TIFF; an EXR is half precision without paper\n",
             stderr);
     }
+    if (is_vector(output.format) && frame.scene->surfaces.shading == SurfaceShading::lambert) {
+        std::fputs("burin: note: a vector file has lines only; the surfaces are left out\n", stderr);
+    }
     const auto note_if_unused = [&](bool is_given, const char* option, std::string_view user) {
         if (!is_given || method.name == user) return;
         std::fprintf(stderr, "burin: note: %s is for method %s and changes nothing here\n", option,

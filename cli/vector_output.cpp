@@ -1,5 +1,7 @@
 #include "cli/vector_output.h"
 
+#include <utility>
+
 #include "base/atomic_file.h"
 #include "output/svg.h"
 #include "shading/ink/ink_lines.h"
@@ -8,12 +10,16 @@ namespace burin {
 
 VectorDrawing draw_paths(const FoundLines& lines, const Frame& frame, const Arguments& a, VectorStats& stats,
                          std::vector<std::string>& notes) {
-    const InkedLines inked = ink_lines(lines, *frame.sheet, a.threads, notes, {true, a.cuts_dashes});
+    InkedLines inked = ink_lines(lines, *frame.sheet, a.threads, notes, {true, a.cuts_dashes});
     VectorOptions options;
     options.tolerance_px = a.tolerance_px;
     options.grouping = a.grouping;
     options.crop = frame.crop;
-    VectorDrawing drawing = vector_drawing_of(inked, lines, options, stats);
+    VectorDrawing drawing = vector_drawing_of(std::move(inked), lines, options, stats);
+    if (stats.mean_inks > 0) {
+        notes.push_back("a path has one colour and opacity: " + std::to_string(stats.mean_inks) +
+                        " strokes that vary in them have their means");
+    }
     const PictureSettings& picture = frame.scene->picture;
     drawing.paper = picture.background;
     if (!drawing.paper && !picture.transparent) drawing.paper = glm::vec3(1.0f);

@@ -15,6 +15,8 @@ namespace {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 /// Ends that are no farther apart are at one place.
 constexpr double kTogetherPx = 1.0 / 16;
+/// Parts of one run may be so far apart.
+constexpr double kGapPx = 0.5;
 /// Dashes go on if a pattern is off by no more than this.
 constexpr double kPhasePx = 1.0 / 8;
 /// Where more than two lines end, those belong together that turn by less than this cosine says.
@@ -29,6 +31,7 @@ class Chainer {
 
     PathLines chained() {
         link();
+        link_runs();
         PathLines result = lines_.without_points();
         result.edges.clear();
         links_.for_chains([&](std::vector<std::uint32_t>& ends, bool is_loop) { add_chain(ends, is_loop, result); });
@@ -54,7 +57,8 @@ class Chainer {
         return glm::dvec2(0.0);
     }
 
-    bool can_join(std::uint32_t a, std::uint32_t b) const {
+    /// `gap_px`: how far the two ends are apart.
+    bool can_join(std::uint32_t a, std::uint32_t b, double gap_px = 0) const {
         const PathLine &x = line(a), &y = line(b);
         if (x.kind != y.kind || x.object != y.object) return false;
         const VectorStyle& style = lines_.styles[x.kind.style];
@@ -67,7 +71,7 @@ class Chainer {
         const double off = std::remainder(static_cast<double>(line(before).dash_phase_px) + length_of(before) -
                                               static_cast<double>(line(after).dash_phase_px),
                                           std::max(period, kPhasePx));
-        return std::abs(off) <= kPhasePx;
+        return std::abs(off) <= kPhasePx + gap_px;
     }
     double length_of(std::uint32_t end) const {
         double length = 0;
@@ -119,6 +123,18 @@ class Chainer {
             own.clear();
             for (; end < ends.size() && ends[end].first == ends[begin].first; ++end) own.push_back(ends[end].second);
             link_place(own);
+        }
+    }
+
+    /// Strokes of one run that follow each other go on over small gaps, as runs do.
+    void link_runs() {
+        for (std::uint32_t end = 1; end + 1 < 2 * lines_.lines.size(); end += 2) {
+            if (line(end).chain != line(end + 1).chain || !links_.is_free(end) || !links_.is_free(end + 1)) continue;
+            const double gap_px = glm::distance(place(end), place(end + 1));
+            if (lines_.styles[line(end).kind.style].is_outline() || line(end).is_closed || line(end + 1).is_closed ||
+                gap_px > kGapPx || !can_join(end, end + 1, gap_px))
+                continue;
+            links_.link(end, end + 1);
         }
     }
 
@@ -186,13 +202,23 @@ class Chainer {
             chain.chain = std::min(chain.chain, l.chain);
             chain.invisibility = std::min(chain.invisibility, l.invisibility);
             const std::span<const glm::dvec2> points = lines_.points_of(l);
-            // Ends that are a little apart become one point.
-            for (std::size_t i = out.points.size() > chain.first_point ? 1 : 0; i < points.size(); ++i)
-                out.points.push_back(points[EndLinks::is_beginning(end) ? i : points.size() - 1 - i]);
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const glm::dvec2 p = points[EndLinks::is_beginning(end) ? i : points.size() - 1 - i];
+                // Ends that are a little apart become one point.
+                if (i == 0 && out.points.size() > chain.first_point &&
+                    glm::distance(out.points.back(), p) <= 2 * kTogetherPx)
+                    continue;
+                out.points.push_back(p);
+            }
             const auto first = lines_.edges.begin() + static_cast<std::ptrdiff_t>(l.first_edge);
             out.edges.insert(out.edges.end(), first, first + static_cast<std::ptrdiff_t>(l.edge_count));
         }
-        if (chain.is_closed) out.points.back() = out.points[chain.first_point];
+        if (chain.is_closed && out.points.back() != out.points[chain.first_point]) {
+            if (glm::distance(out.points.back(), out.points[chain.first_point]) <= 2 * kTogetherPx)
+                out.points.back() = out.points[chain.first_point];
+            else
+                out.points.push_back(out.points[chain.first_point]);
+        }
         chain.point_count = out.points.size() - chain.first_point;
         const auto first = out.edges.begin() + static_cast<std::ptrdiff_t>(chain.first_edge);
         std::sort(first, out.edges.end());

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "base/stopwatch.h"
 #include "output/paths/chain_paths.h"
 #include "output/paths/clean_paths.h"
+#include "output/paths/cut_halos.h"
 #include "output/paths/fit_path.h"
 #include "output/paths/path_lines.h"
 
@@ -41,6 +43,13 @@ bool is_one_group(const VectorGroup& a, const VectorGroup& b) {
     return key(a) == key(b);
 }
 
+/// Whether colour or opacity change along a stroke.
+bool varies(std::span<const InkPoint> points) {
+    return std::any_of(points.begin(), points.end(), [&](const InkPoint& p) {
+        return p.opacity != points.front().opacity || p.color != points.front().color;
+    });
+}
+
 /// Adds a path, in several ones if it has more steps than all programs take.
 void add_in_parts(VectorPath path, VectorDrawing& drawing) {
     const std::size_t end = path.first_step + path.step_count;
@@ -57,7 +66,7 @@ void add_in_parts(VectorPath path, VectorDrawing& drawing) {
 
 }  // namespace
 
-VectorDrawing vector_drawing_of(const InkedLines& inked, const FoundLines& found, const VectorOptions& options,
+VectorDrawing vector_drawing_of(InkedLines inked, const FoundLines& found, const VectorOptions& options,
                                 VectorStats& stats) {
     VectorDrawing drawing;
     drawing.width_px = found.width_px;
@@ -70,13 +79,16 @@ VectorDrawing vector_drawing_of(const InkedLines& inked, const FoundLines& found
     drawing.sets = inked.sets;
 
     Stopwatch watch;
+    const PixelRect picture{0, 0, found.width_px, found.height_px};
+    inked = with_halos_cut(std::move(inked), found.projection, picture);
+    for (const InkStroke& stroke : inked.strokes) stats.mean_inks += varies(inked.points_of(stroke)) ? 1 : 0;
     PathLines lines = path_lines_of(inked, options.grouping, options.crop);
     stats.strokes = lines.lines.size();
     lines = chained_paths(lines);
     stats.chained = lines.lines.size();
     stats.chain_s = watch.lap();
     // Of what is left, other lines are the only ones that go on in each other.
-    lines = chained_paths(cleaned_paths(lines, {0, 0, found.width_px, found.height_px}));
+    lines = chained_paths(cleaned_paths(lines, picture));
     stats.clean_s = watch.lap();
 
     sort_to_groups(options.grouping, lines.lines);
