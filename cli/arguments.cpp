@@ -28,7 +28,7 @@ struct Texts {
         supersample;
     std::string width, color, dpi, frame, save_lines, find, crease, hidden, style, layers, frames, crop, threads,
         memory, model_memory, stats, bits;
-    std::string tolerance, dashes, group, ids;
+    std::string tolerance, chord_sag, dashes, group, ids;
     std::string repeat, progress, pixel, background, methods, compare_frames;
     std::vector<std::string> sets;
     int verbose = 0;
@@ -44,6 +44,10 @@ void add_file_options(CLI::App& app, Texts& t) {
                    "colour of the paper of PNG, TIFF and vector files, #rrggbb, or transparent");
     app.add_option("--tolerance", t.tolerance,
                    "vector files: how far curves may be from lines, in pixels, 0.001 to 10 (default 0.02)");
+    app.add_option(
+        "--chord-sag", t.chord_sag,
+        "vector files: how much farther they may be from straight parts between vertices, in pixels, 0 to 10 "
+        "(default 0.05); more makes circles of coarse polygons");
     app.add_option("--dashes", t.dashes,
                    "vector files: pattern (default), the viewer cuts dashes, or real, each dash is a path");
     app.add_option("--group", t.group,
@@ -369,6 +373,10 @@ void fill_vector_options(const Texts& t, Arguments& a) {
         a.tolerance_px = number("--tolerance", t.tolerance);
         if (!(a.tolerance_px >= 0.001 && a.tolerance_px <= 10)) fail("--tolerance", "must be from 0.001 to 10 pixels");
     }
+    if (!t.chord_sag.empty()) {
+        a.chord_sag_px = number("--chord-sag", t.chord_sag);
+        if (!(a.chord_sag_px >= 0 && a.chord_sag_px <= 10)) fail("--chord-sag", "must be from 0 to 10 pixels");
+    }
     if (!t.dashes.empty() && t.dashes != "pattern" && t.dashes != "real") fail("--dashes", "must be pattern or real");
     a.cuts_dashes = t.dashes == "real";
     if (t.group == "object") {
@@ -380,7 +388,8 @@ void fill_vector_options(const Texts& t, Arguments& a) {
     }
     if (!t.ids.empty() && t.ids != "all" && t.ids != "none") fail("--ids", "must be all or none");
     a.names_paths = t.ids != "none";
-    a.has_vector_options = !(t.tolerance.empty() && t.dashes.empty() && t.group.empty() && t.ids.empty());
+    a.has_vector_options =
+        !(t.tolerance.empty() && t.chord_sag.empty() && t.dashes.empty() && t.group.empty() && t.ids.empty());
 }
 
 /// Known methods, each once, in the order given.

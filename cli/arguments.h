@@ -47,10 +47,10 @@ struct Arguments {
     std::optional<std::array<int, 2>> pixel;
     std::string background;
     VectorGrouping grouping = VectorGrouping::line_class;
-    double tolerance_px = 0.02;
+    double tolerance_px = 0.02, chord_sag_px = 0.05;
     bool cuts_dashes = false;         ///< of vector files; else dashes are left to the viewer
     bool names_paths = true;          ///< paths in vector files have ids and data-*
-    bool has_vector_options = false;  ///< any of these four was given
+    bool has_vector_options = false;  ///< any of these was given
     std::vector<Override> overrides;
     int bits = 8;
     int threads = 0;

@@ -132,7 +132,7 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method, b
         std::fputs("burin: note: only an EXR has --layers; this file gets the beauty layer\n", stderr);
     }
     if (a.has_vector_options && !is_vector(output.format)) {
-        std::fputs("burin: note: --tolerance, --dashes, --group and --ids are for vector files\n", stderr);
+        std::fputs("burin: note: --tolerance, --chord-sag, --dashes, --group and --ids are for vector files\n", stderr);
     }
     if (output.format == OutputFormat::exr && (a.bits != Arguments().bits || !a.background.empty())) {
         std::fputs(

@@ -12,7 +12,7 @@ VectorDrawing draw_paths(const FoundLines& lines, const Frame& frame, const Argu
                          std::vector<std::string>& notes) {
     InkedLines inked = ink_lines(lines, *frame.sheet, a.threads, notes, {true, a.cuts_dashes});
     VectorOptions options;
-    options.tolerance_px = a.tolerance_px;
+    options.bounds = {a.tolerance_px, a.chord_sag_px};
     options.grouping = a.grouping;
     options.crop = frame.crop;
     VectorDrawing drawing = vector_drawing_of(std::move(inked), lines, options, stats);

@@ -89,7 +89,8 @@ class HaloCutter {
         const double farther_px = projection_.orthographic ? projection_.focal_px * (a - b)
                                   : b > 0                  ? projection_.focal_px * (a / b - 1)
                                                            : std::numeric_limits<double>::infinity();
-        const auto from = static_cast<double>(stroke.halo_depth_px[0]), to = static_cast<double>(stroke.halo_depth_px[1]);
+        const auto from = static_cast<double>(stroke.halo_depth_px[0]),
+                   to = static_cast<double>(stroke.halo_depth_px[1]);
         if (!(to > from)) return farther_px >= from ? 1 : 0;
         return std::clamp((farther_px - from) / (to - from), 0.0, 1.0);
     }
@@ -146,8 +147,8 @@ class HaloCutter {
         if (!origin.dash_px.empty()) {
             double period = 0;
             for (const float length : origin.dash_px) period += static_cast<double>(length);
-            origin.dash_phase_px =
-                static_cast<float>(std::fmod(static_cast<double>(origin.dash_phase_px) + at_px, std::max(period, 1e-3)));
+            origin.dash_phase_px = static_cast<float>(
+                std::fmod(static_cast<double>(origin.dash_phase_px) + at_px, std::max(period, 1e-3)));
         }
         out.origins.push_back(std::move(origin));
     }

@@ -13,6 +13,8 @@ namespace {
 constexpr double kCornerCosine = 0.9063;  // of 25 degrees
 /// Points that are so many tolerances off the straight line through their neighbours are none of the curve.
 constexpr double kStraightShare = 0.25;
+/// Curves bend a little more in one chord than in the next one.
+constexpr double kSagTimes = 1.25;
 /// Straight parts so short are what is left where lines were found piece by piece.
 constexpr double kStubPx = 1.0 / 16;
 /// A straight part that is so much longer than the next one is a line, where a curve begins.
@@ -58,9 +60,9 @@ std::vector<char> parts_with_others(std::span<const glm::dvec2> line, std::span<
 class PathFitter {
   public:
     /// `is_straight`: of each part, whether the line is known to be straight there.
-    PathFitter(std::vector<glm::dvec2> points, std::span<const char> is_straight, bool is_closed, double tolerance_px,
-               std::vector<PathStep>& steps)
-        : points_(std::move(points)), is_closed_(is_closed), tolerance_px_(tolerance_px), steps_(steps) {
+    PathFitter(std::vector<glm::dvec2> points, std::span<const char> is_straight, bool is_closed,
+               const FitBounds& bounds, std::vector<PathStep>& steps)
+        : points_(std::move(points)), is_closed_(is_closed), bounds_(bounds), steps_(steps) {
         const std::size_t n = points_.size();
         for (std::size_t i = 0; i + 1 < n; ++i) {
             ways_.push_back(points_[i + 1] - points_[i]);
@@ -108,7 +110,7 @@ class PathFitter {
         double turns = 0;
         if (has_begin && has_end) turns = std::max(turn(i), turn(i + 1));
         if (has_begin != has_end) turns = turn(has_begin ? i : i + 1);
-        return std::min(lengths_[i] * turns / 8, kMostSagPx);
+        return std::min(kSagTimes * lengths_[i] * turns / 8, bounds_.chord_sag_px);
     }
     /// The tangent at a point, from it towards one of its neighbours, as that of the parabola through three points.
     glm::dvec2 way_from(std::size_t i, bool is_forth) const {
@@ -130,12 +132,12 @@ class PathFitter {
         const std::span<const glm::dvec2> points = std::span(points_).subspan(begin, end - begin + 1);
         // As few straight steps as a curve has numbers are better than the curve.
         std::vector<glm::dvec2> straight;
-        simplify(points, tolerance_px_, straight);
+        simplify(points, bounds_.tolerance_px, straight);
         if (points.size() > 3 && straight.size() > 4) {
             SmoothPart part;
             part.points = points;
             part.sag_px = std::span(sags_).subspan(begin, end - begin);
-            part.tolerance_px = tolerance_px_;
+            part.tolerance_px = bounds_.tolerance_px;
             part.begin_way = way_from(begin, true);
             part.end_way = way_from(end, false);
             if (fit_arcs(part, steps_)) return;
@@ -159,18 +161,18 @@ class PathFitter {
     std::vector<double> lengths_, sags_;
     std::vector<char> is_corner_;  // of each point; the ends of an open line are corners
     bool is_closed_;
-    double tolerance_px_;
+    FitBounds bounds_;
     std::vector<PathStep>& steps_;
 };
 
 }  // namespace
 
-glm::dvec2 fit_path(std::span<const glm::dvec2> line, bool is_closed, double tolerance_px,
+glm::dvec2 fit_path(std::span<const glm::dvec2> line, bool is_closed, const FitBounds& bounds,
                     std::vector<PathStep>& steps) {
     is_closed = is_closed && line.front() == line.back();
     std::vector<glm::dvec2> points;
-    simplify(line, kStraightShare * tolerance_px, points);
-    remove_stubs(is_closed, tolerance_px, points);
+    simplify(line, kStraightShare * bounds.tolerance_px, points);
+    remove_stubs(is_closed, bounds.tolerance_px, points);
     const glm::dvec2 start = points.front();
     if (points.size() == 2 && points[0] == points[1]) {  // a dot
         PathStep step;
@@ -178,7 +180,9 @@ glm::dvec2 fit_path(std::span<const glm::dvec2> line, bool is_closed, double tol
         steps.push_back(step);
     } else {
         const std::vector<char> is_straight = parts_with_others(line, points);
-        PathFitter(std::move(points), is_straight, is_closed, (1 - kStraightShare) * tolerance_px, steps).fit();
+        PathFitter(std::move(points), is_straight, is_closed,
+                   {(1 - kStraightShare) * bounds.tolerance_px, bounds.chord_sag_px}, steps)
+            .fit();
     }
     return start;
 }

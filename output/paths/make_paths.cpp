@@ -9,6 +9,7 @@
 #include "output/paths/clean_paths.h"
 #include "output/paths/cut_halos.h"
 #include "output/paths/fit_path.h"
+#include "output/paths/merge_strokes.h"
 #include "output/paths/path_lines.h"
 
 namespace burin {
@@ -80,7 +81,7 @@ VectorDrawing vector_drawing_of(InkedLines inked, const FoundLines& found, const
 
     Stopwatch watch;
     const PixelRect picture{0, 0, found.width_px, found.height_px};
-    inked = with_halos_cut(std::move(inked), found.projection, picture);
+    inked = with_halos_cut(with_runs_merged(std::move(inked)), found.projection, picture);
     for (const InkStroke& stroke : inked.strokes) stats.mean_inks += varies(inked.points_of(stroke)) ? 1 : 0;
     PathLines lines = path_lines_of(inked, options.grouping, options.crop);
     stats.strokes = lines.lines.size();
@@ -108,7 +109,7 @@ VectorDrawing vector_drawing_of(InkedLines inked, const FoundLines& found, const
         path.dash_phase_px = line.dash_phase_px;
         path.first_edge = line.first_edge;
         path.edge_count = line.edge_count;
-        path.start = fit_path(lines.points_of(line), line.is_closed, options.tolerance_px, drawing.steps);
+        path.start = fit_path(lines.points_of(line), line.is_closed, options.bounds, drawing.steps);
         path.step_count = drawing.steps.size() - path.first_step;
         add_in_parts(path, drawing);
     }

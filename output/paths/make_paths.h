@@ -1,12 +1,13 @@
 #pragma once
 
+#include "output/paths/fit_path.h"
 #include "output/paths/vector_drawing.h"
 #include "shading/ink/found_lines.h"
 
 namespace burin {
 
 struct VectorOptions {
-    double tolerance_px = 0.02;  ///< how far paths may be from lines, both ways
+    FitBounds bounds;
     VectorGrouping grouping = VectorGrouping::line_class;
     PixelRect crop;  ///< of the picture: what is shown
 };

@@ -13,11 +13,12 @@ std::string scene_file(const std::string& name) { return std::string(BURIN_SOURC
 TEST(VectorFiles, RenderAndRestyleWriteTheSame) {
     const TemporaryFolder folder;
     for (const char* const style : {"technical", "pencil"}) {
-        ASSERT_EQ(run_burin(folder.path(), {"render", scene_file("still_life.toml"), "-o", "a.svg", "-r", "160x120", "-q",
-                                            "--style", style, "--find", "all", "--save-lines", "a.lines"})
+        ASSERT_EQ(run_burin(folder.path(), {"render", scene_file("still_life.toml"), "-o", "a.svg", "-r", "160x120",
+                                            "-q", "--style", style, "--find", "all", "--save-lines", "a.lines"})
                       .err,
                   "");
-        ASSERT_EQ(run_burin(folder.path(), {"restyle", "a.lines", "-o", "b.svg", "--style", style, "-j", "1", "-q"}).err, "");
+        ASSERT_EQ(
+            run_burin(folder.path(), {"restyle", "a.lines", "-o", "b.svg", "--style", style, "-j", "1", "-q"}).err, "");
         EXPECT_TRUE(read_file(folder.file("a.svg")) == read_file(folder.file("b.svg"))) << style;
     }
 }
@@ -30,7 +31,9 @@ TEST(VectorFiles, OptionsSayWhatIsInThem) {
         EXPECT_EQ(run_burin(folder.path(), arguments).err, "");
         return read_file(folder.file("a.svg"));
     };
-    const auto has = [](const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; };
+    const auto has = [](const std::string& text, const std::string& part) {
+        return text.find(part) != std::string::npos;
+    };
     const std::string plain = svg({"--hidden", "dashed"});
     EXPECT_TRUE(has(plain, "width=\"42.3333mm\" height=\"31.75mm\" viewBox=\"0 0 160 120\""));
     EXPECT_TRUE(has(plain, "inkscape:label=\"1 visible\"") && has(plain, "inkscape:label=\"2 hidden\""));
@@ -59,7 +62,8 @@ TEST(VectorFiles, WhatCannotBeIsRefusedOrNoted) {
     EXPECT_NE(err({"-o", "a.svg", "--dashes", "some"}).find("pattern or real"), std::string::npos);
     EXPECT_NE(err({"-o", "a.svg", "--group", "colour"}).find("class, object or qi"), std::string::npos);
     EXPECT_NE(err({"-o", "a.png", "--group", "object"}).find("are for vector files"), std::string::npos);
-    EXPECT_NE(err({"-o", "a.svg", "--set", "surfaces.shading=lambert"}).find("surfaces are left out"), std::string::npos);
+    EXPECT_NE(err({"-o", "a.svg", "--set", "surfaces.shading=lambert"}).find("surfaces are left out"),
+              std::string::npos);
     EXPECT_NE(err({"-o", "a.svg", "--style", "pencil"}).find("one colour and opacity"), std::string::npos);
 }
 

@@ -20,6 +20,7 @@ namespace burin {
 namespace {
 
 using Points = std::vector<glm::dvec2>;
+constexpr double kSagPx = FitBounds().chord_sag_px;
 constexpr PixelRect kArea{0, 0, 400, 300};
 
 /// Lines of one style that may be changed before they are joined or cleaned.
@@ -223,10 +224,10 @@ TEST(FitPath, IsWithinTheToleranceBothWays) {
         }
         const double tolerance = trial % 2 == 0 ? 0.02 : 0.2;
         std::vector<PathStep> steps;
-        const glm::dvec2 start = fit_path(line, false, tolerance, steps);
+        const glm::dvec2 start = fit_path(line, false, {tolerance, kSagPx}, steps);
         const Points path = flattened(start, steps);
         for (const glm::dvec2 p : line) EXPECT_LT(distance_to(p, path), tolerance + 2e-3) << trial;
-        for (const glm::dvec2 p : path) EXPECT_LT(distance_to(p, line), tolerance + kMostSagPx + 2e-3) << trial;
+        for (const glm::dvec2 p : path) EXPECT_LT(distance_to(p, line), tolerance + kSagPx + 2e-3) << trial;
         EXPECT_EQ(path.back(), line.back());
         for (const PathStep& s : steps) curves += s.kind == PathStep::Kind::line ? 0 : 1;
     }
@@ -241,7 +242,7 @@ TEST(FitPath, AnEllipseIsArcs) {
     }
     line.back() = line.front();
     std::vector<PathStep> steps;
-    const glm::dvec2 start = fit_path(line, true, 0.02, steps);
+    const glm::dvec2 start = fit_path(line, true, {}, steps);
     EXPECT_EQ(steps.size(), 4u);
     for (const PathStep& step : steps) EXPECT_EQ(step.kind, PathStep::Kind::arc);
     for (const glm::dvec2 p : flattened(start, steps)) {
@@ -253,12 +254,12 @@ TEST(FitPath, AnEllipseIsArcs) {
 TEST(FitPath, StraightLinesAndCornersStay) {
     std::vector<PathStep> steps;
     const Points box = {{0, 0}, {5, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 0}};
-    fit_path(box, true, 0.02, steps);
+    fit_path(box, true, {}, steps);
     ASSERT_EQ(steps.size(), 4u);
     EXPECT_EQ(steps[0].to, glm::dvec2(10, 0));
     for (const PathStep& step : steps) EXPECT_EQ(step.kind, PathStep::Kind::line);
     steps.clear();
-    fit_path(Points{{3, 3}, {3, 3}}, false, 0.02, steps);  // a dot
+    fit_path(Points{{3, 3}, {3, 3}}, false, {}, steps);  // a dot
     EXPECT_EQ(steps.size(), 1u);
 }
 
@@ -269,8 +270,11 @@ TEST(FitPath, CoarsePolygonsStay) {
         line.push_back({200 + 100 * std::cos(i * 0.2617993877991494), 150 + 100 * std::sin(i * 0.2617993877991494)});
     line.back() = line.front();
     std::vector<PathStep> steps;
-    fit_path(line, true, 0.02, steps);
+    fit_path(line, true, {}, steps);
     EXPECT_EQ(steps.size(), 24u);
+    steps.clear();
+    fit_path(line, true, {0.02, 1}, steps);  // unless that is asked for
+    EXPECT_EQ(steps.size(), 4u);
 }
 
 TEST(Outline, IsAroundEachPointOfTheStroke) {
