@@ -68,8 +68,7 @@ InkedLines with_runs_merged(InkedLines lines) {
         if (!is_merged) continue;
         InkStroke& merged = strokes.back();
         merged.is_constant = false;
-        merged.is_closed =
-            glm::distance(points[merged.first_point].place, points.back().place) <= kClosedPx;
+        merged.is_closed = glm::distance(points[merged.first_point].place, points.back().place) <= kClosedPx;
     }
     lines.strokes = std::move(strokes);
     lines.origins = std::move(origins);
