@@ -15,7 +15,7 @@ constexpr double kCrumbPx = 1.0;
 constexpr double kBesidePx = 0.25, kTwicePx = 1.5;
 /// The sine up to which two lines run the same way.
 constexpr double kParallelSine = 0.17;
-constexpr double kStepPx = 0.5;
+constexpr double kStepPx = 0.5, kMostReachPx = 2;
 
 double length_of(std::span<const glm::dvec2> points) {
     double length = 0;
@@ -103,7 +103,7 @@ class Cleaner {
     }
     /// Whether the pens of others that were kept pass over all points.
     bool is_covered(std::uint32_t number, std::span<const glm::dvec2> points) const {
-        const double reach = std::max(0.5 * static_cast<double>(style_of(number).width_px), kBesidePx);
+        const double reach = std::clamp(0.5 * static_cast<double>(style_of(number).width_px), kBesidePx, kMostReachPx);
         return std::all_of(points.begin(), points.end(),
                            [&](glm::dvec2 p) { return is_near(number, p, reach, nullptr); });
     }

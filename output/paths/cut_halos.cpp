@@ -37,7 +37,11 @@ InkPoint point_at(std::span<const InkPoint> points, Place place) {
 class HaloCutter {
   public:
     HaloCutter(const InkedLines& lines, const Projection& projection, PixelRect picture)
-        : lines_(lines), projection_(projection), grid_(picture) {
+        : lines_(lines),
+          projection_(projection),
+          reach_px_(most_reach_px(lines)),
+          step_px_(std::max(kStepPx, reach_px_ / 64)),
+          grid_(picture, reach_px_) {
         for (std::uint32_t s = 0; s < lines.strokes.size(); ++s) {
             const InkStroke& stroke = lines.strokes[s];
             if (!(stroke.halo_px > 0)) continue;
@@ -45,8 +49,6 @@ class HaloCutter {
             for (std::size_t i = 0; i + 1 < points.size(); ++i) {
                 grid_.add(points[i].place, points[i + 1].place, static_cast<std::uint32_t>(segments_.size()));
                 segments_.push_back({s, stroke.first_point + i});
-                const float width = std::max(points[i].width_px, points[i + 1].width_px);
-                reach_px_ = std::max(reach_px_, static_cast<double>(0.5f * width + stroke.halo_px));
             }
         }
     }
@@ -65,6 +67,17 @@ class HaloCutter {
         std::uint32_t stroke;
         std::size_t point;
     };
+
+    /// How far from its line a stroke erases others.
+    static double most_reach_px(const InkedLines& lines) {
+        double reach = 0;
+        for (const InkStroke& stroke : lines.strokes) {
+            if (!(stroke.halo_px > 0)) continue;
+            for (const InkPoint& p : lines.points_of(stroke))
+                reach = std::max(reach, static_cast<double>(0.5f * p.width_px + stroke.halo_px));
+        }
+        return reach;
+    }
 
     bool is_erased(const InkStroke& stroke, const InkPoint& p) const {
         const double own = stroke.caps == StrokeCaps::round ? 0.5 * static_cast<double>(p.width_px) : 0;
@@ -104,7 +117,7 @@ class HaloCutter {
         double at_px = 0, begin_px = 0;
         for (std::size_t i = 0; i + 1 < points.size(); ++i) {
             const double length = glm::distance(points[i].place, points[i + 1].place);
-            const int steps = std::max(1, static_cast<int>(std::ceil(std::min(length / kStepPx, 1e6))));
+            const int steps = std::max(1, static_cast<int>(std::ceil(std::min(length / step_px_, 1e6))));
             for (int k = 1; k <= steps; ++k) {
                 const Place place{i, static_cast<double>(k) / steps};
                 const bool is = is_erased(stroke, point_at(points, place));
@@ -155,9 +168,9 @@ class HaloCutter {
 
     const InkedLines& lines_;
     const Projection& projection_;
+    double reach_px_, step_px_;
     PartGrid grid_;
     std::vector<Segment> segments_;
-    double reach_px_ = 0;
 };
 
 }  // namespace

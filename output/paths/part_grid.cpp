@@ -10,9 +10,9 @@ constexpr double kSmallestCellPx = 2, kMostCells = 1 << 22;
 
 }  // namespace
 
-PartGrid::PartGrid(PixelRect area) : area_(area) {
+PartGrid::PartGrid(PixelRect area, double reach_px) : area_(area) {
     const double width = std::max(area.width(), 1), height = std::max(area.height(), 1);
-    cell_px_ = std::max(kSmallestCellPx, std::sqrt(width * height / kMostCells));
+    cell_px_ = std::max({kSmallestCellPx, reach_px, std::sqrt(width * height / kMostCells)});
     cells_per_px_ = 1 / cell_px_;
     columns_ = static_cast<int>(width / cell_px_) + 1;
     rows_ = static_cast<int>(height / cell_px_) + 1;

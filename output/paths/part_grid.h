@@ -12,8 +12,8 @@ namespace burin {
 /// are at most some millions of them.
 class PartGrid {
   public:
-    /// `area`: of the parts; what is beyond it lies in the cells at its border.
-    explicit PartGrid(PixelRect area);
+    /// `area`: of the parts; what is beyond it lies in the cells at its border. `reach_px`: how far is looked, often.
+    explicit PartGrid(PixelRect area, double reach_px = 0);
 
     struct Part {
         glm::dvec2 from, way;  ///< to its other end
