@@ -10,7 +10,9 @@
 #include "output/paths/arc.h"
 #include "output/paths/chain_paths.h"
 #include "output/paths/clean_paths.h"
+#include "output/paths/cut_halos.h"
 #include "output/paths/fit_path.h"
+#include "output/paths/merge_strokes.h"
 #include "output/paths/outline.h"
 #include "output/paths/simplify.h"
 #include "output/xml_text.h"
@@ -275,6 +277,61 @@ TEST(FitPath, CoarsePolygonsStay) {
     steps.clear();
     fit_path(line, true, {0.02, 1}, steps);  // unless that is asked for
     EXPECT_EQ(steps.size(), 4u);
+}
+
+/// Adds a straight stroke.
+void add_stroke(InkedLines& lines, glm::dvec2 from, glm::dvec2 to, float width_px, float nearness) {
+    InkStroke stroke;
+    stroke.first_point = lines.points.size();
+    stroke.point_count = 2;
+    stroke.chain = lines.strokes.size();
+    for (const glm::dvec2 place : {from, to}) {
+        InkPoint p;
+        p.place = place;
+        p.width_px = width_px;
+        p.nearness = nearness;
+        lines.points.push_back(p);
+    }
+    lines.strokes.push_back(stroke);
+    lines.origins.emplace_back();
+}
+
+TEST(CutHalos, LinesFarBehindEndBesideThem) {
+    for (const float halo_px : {3.0f, 0.0f, 800.0f}) {
+        InkedLines lines;
+        add_stroke(lines, {10, 50}, {90, 50}, 2, 1);
+        lines.strokes[0].halo_px = halo_px;
+        add_stroke(lines, {40, 10}, {40, 90}, 1, 0.5f);
+        add_stroke(lines, {60, 10}, {60, 90}, 1, 1);  // not behind
+        Projection projection;
+        projection.focal_px = 1000;
+        const InkedLines cut = with_halos_cut(lines, projection, kArea);
+        if (halo_px == 800) {  // all of it is erased
+            EXPECT_EQ(cut.strokes.size(), 2u);
+            continue;
+        }
+        ASSERT_EQ(cut.strokes.size(), halo_px > 0 ? 4u : 3u);
+        ASSERT_EQ(cut.origins.size(), cut.strokes.size());
+        if (halo_px == 0) continue;
+        // Half the pen in front, the halo, and the round end.
+        EXPECT_NEAR(cut.points_of(cut.strokes[1]).back().place.y, 45.5, 0.02);
+        EXPECT_NEAR(cut.points_of(cut.strokes[2]).front().place.y, 54.5, 0.02);
+        EXPECT_EQ(cut.points_of(cut.strokes[2]).front().width_px, 1);
+    }
+}
+
+TEST(MergeStrokes, ARunOfOtherWidthsIsOneStroke) {
+    for (const bool is_one_width : {false, true}) {
+        InkedLines lines;
+        add_stroke(lines, {10, 50}, {30, 50}, 2, 1);
+        add_stroke(lines, {30, 50}, {50, 52}, is_one_width ? 2 : 1, 1);
+        add_stroke(lines, {50, 52}, {70, 54}, 2, 1);
+        for (InkStroke& stroke : lines.strokes) stroke.chain = 4;
+        add_stroke(lines, {70, 54}, {90, 50}, 1, 1);  // another run
+        const InkedLines merged = with_runs_merged(lines);
+        EXPECT_EQ(merged.strokes.size(), is_one_width ? 4u : 2u);
+        EXPECT_EQ(merged.points.size(), 8u);
+    }
 }
 
 TEST(Outline, IsAroundEachPointOfTheStroke) {
