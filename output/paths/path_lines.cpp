@@ -5,6 +5,7 @@
 #include <cstring>
 #include <tuple>
 
+#include "output/paths/clip_line.h"
 #include "output/paths/outline.h"
 #include "output/paths/simplify.h"
 
@@ -115,6 +116,21 @@ std::vector<glm::dvec2> moved_to_side(std::span<const InkPoint> points, StrokeSi
     return moved;
 }
 
+/// Adds a line without the points that it can do without.
+void add_line(PathLine line, std::span<const glm::dvec2> places, std::uint64_t edge, PathLines& paths) {
+    line.first_point = paths.points.size();
+    simplify(places, kStraightPx, paths.points);
+    line.point_count = paths.points.size() - line.first_point;
+    if (line.point_count < 2) {
+        paths.points.resize(line.first_point);
+        return;
+    }
+    line.first_edge = paths.edges.size();
+    line.edge_count = 1;
+    paths.edges.push_back(edge);
+    paths.lines.push_back(line);
+}
+
 }  // namespace
 
 PathLines path_lines_of(const InkedLines& lines, VectorGrouping grouping, PixelRect crop) {
@@ -139,40 +155,52 @@ PathLines path_lines_of(const InkedLines& lines, VectorGrouping grouping, PixelR
         line.dash_phase_px = origin.dash_phase_px;
         line.is_closed = stroke.is_closed;
         for (const InkPoint& p : points) line.nearness = std::max(line.nearness, p.nearness);
-        line.first_point = paths.points.size();
         const bool has_one_width = std::all_of(
             points.begin(), points.end(), [&](const InkPoint& p) { return p.width_px == points.front().width_px; });
         const MeanInk ink =
             stroke.is_constant ? MeanInk{points.front().opacity, points.front().color} : mean_ink(points);
         style.opacity = ink.opacity;
         style.color = ink.color;
-        if (has_one_width) {
-            const bool has_side = stroke.side != StrokeSide::both && points.front().occludes && !stroke.is_behind;
-            style.width_px = points.front().width_px * (has_side ? 0.5f : 1.0f);
-            if (has_side) {
-                places =
-                    moved_to_side(points, stroke.side, static_cast<double>(points.front().width_px), stroke.is_closed);
-            } else {
-                places.clear();
-                for (const InkPoint& p : points) places.push_back(p.place);
-            }
-            simplify(places, kStraightPx, paths.points);
-        } else {
+        if (!has_one_width) {
             style.width_px = 0;
             style.dash_px.clear();
             line.is_closed = true;
-            add_outline(points, stroke.caps == StrokeCaps::round, stroke.is_closed, paths.points);
-        }
-        line.point_count = paths.points.size() - line.first_point;
-        if (line.point_count < 2) {
-            paths.points.resize(line.first_point);
+            places.clear();
+            add_outline(points, stroke.caps == StrokeCaps::round, stroke.is_closed, places);
+            line.kind.style = styles.number_of(std::move(style));
+            add_line(line, places, origin.edge, paths);
             continue;
         }
-        line.first_edge = paths.edges.size();
-        line.edge_count = 1;
-        paths.edges.push_back(origin.edge);
+        const bool has_side = stroke.side != StrokeSide::both && points.front().occludes && !stroke.is_behind;
+        const auto width_px = static_cast<double>(points.front().width_px);
+        style.width_px = points.front().width_px * (has_side ? 0.5f : 1.0f);
+        if (has_side) {
+            places = moved_to_side(points, stroke.side, width_px, stroke.is_closed);
+        } else {
+            places.clear();
+            for (const InkPoint& p : points) places.push_back(p.place);
+        }
         line.kind.style = styles.number_of(std::move(style));
-        paths.lines.push_back(line);
+        // What lies farther beside the crop leaves no ink in it.
+        const glm::dvec2 low = glm::dvec2(crop.x0, crop.y0) - 0.5 * width_px,
+                         high = glm::dvec2(crop.x1, crop.y1) + 0.5 * width_px;
+        const bool is_inside = std::all_of(places.begin(), places.end(), [&](glm::dvec2 p) {
+            return p.x >= low.x && p.y >= low.y && p.x <= high.x && p.y <= high.y;
+        });
+        if (is_inside) {
+            add_line(line, places, origin.edge, paths);
+            continue;
+        }
+        line.is_closed = false;
+        double period = 0;
+        for (const float length : origin.dash_px) period += static_cast<double>(length);
+        for (const ClippedPart& part : clipped_line(places, low, high)) {
+            if (period > 0) {
+                const double phase = static_cast<double>(origin.dash_phase_px) + part.begin_px;
+                line.dash_phase_px = static_cast<float>(std::fmod(phase, period));
+            }
+            add_line(line, part.points, origin.edge, paths);
+        }
     }
     return paths;
 }

@@ -52,8 +52,8 @@ struct PathLines {
 };
 
 /// Takes the strokes of a picture apart into lines of constant ink and outlines of all others. Points on the way that
-/// are within `straight_px` of a straight line through their neighbours are left out. `crop`: nothing is left of lines
-/// that leave no ink in it. `lines`: with origins.
+/// lie on the straight line through their neighbours are left out. `crop`: lines end where they leave no more ink in
+/// it. `lines`: with origins.
 PathLines path_lines_of(const InkedLines& lines, VectorGrouping grouping, PixelRect crop);
 
 }  // namespace burin

@@ -10,6 +10,7 @@
 #include "output/paths/arc.h"
 #include "output/paths/chain_paths.h"
 #include "output/paths/clean_paths.h"
+#include "output/paths/clip_line.h"
 #include "output/paths/cut_halos.h"
 #include "output/paths/fit_path.h"
 #include "output/paths/merge_strokes.h"
@@ -318,6 +319,17 @@ TEST(CutHalos, LinesFarBehindEndBesideThem) {
         EXPECT_NEAR(cut.points_of(cut.strokes[2]).front().place.y, 54.5, 0.02);
         EXPECT_EQ(cut.points_of(cut.strokes[2]).front().width_px, 1);
     }
+}
+
+TEST(ClipLine, LeavesWhatIsInside) {
+    const Points line = {{-10, 5}, {20, 5}, {20, 30}, {5, 30}, {5, 8}};
+    const auto parts = clipped_line(line, {0, 0}, {30, 20});
+    ASSERT_EQ(parts.size(), 2u);
+    EXPECT_EQ(parts[0].points, (Points{{0, 5}, {20, 5}, {20, 20}}));
+    EXPECT_EQ(parts[0].begin_px, 10);
+    EXPECT_EQ(parts[1].points, (Points{{5, 20}, {5, 8}}));
+    EXPECT_EQ(parts[1].begin_px, 30 + 25 + 15 + 10);
+    EXPECT_TRUE(clipped_line(Points{{-5, -5}, {-5, 50}}, {0, 0}, {30, 20}).empty());
 }
 
 TEST(MergeStrokes, ARunOfOtherWidthsIsOneStroke) {
