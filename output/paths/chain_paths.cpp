@@ -98,20 +98,25 @@ class Chainer {
             cells.push_back({number(p.y), number(p.x), end});
         }
         std::sort(cells.begin(), cells.end());
-        // Each end belongs to the place of the first one that is near it and begins a place.
+        // Each end belongs to the nearest of the places that are there, or begins one. These are not close together, so
+        // few of them are looked at.
+        std::vector<Cell> places;
         std::vector<std::uint32_t> place_of(2 * lines_.lines.size(), kNone);
         for (const Cell& cell : cells) {
             const glm::dvec2 p = place(cell.end);
             std::uint32_t found = kNone;
-            for (std::int32_t row = number(p.y - kTogetherPx); row <= number(p.y + kTogetherPx); ++row) {
+            double nearest = kTogetherPx;
+            for (std::int32_t row = number(p.y - kTogetherPx); row <= cell.row; ++row) {
                 const std::int32_t last = number(p.x + kTogetherPx);
-                for (auto it = std::lower_bound(cells.begin(), cells.end(), Cell{row, number(p.x - kTogetherPx), 0});
-                     it != cells.end() && it->row == row && it->column <= last; ++it) {
-                    if (place_of[it->end] != it->end || glm::distance(place(it->end), p) > kTogetherPx) continue;
-                    if (found == kNone || glm::distance(place(it->end), p) < glm::distance(place(found), p))
-                        found = it->end;
+                for (auto it = std::lower_bound(places.begin(), places.end(), Cell{row, number(p.x - kTogetherPx), 0});
+                     it != places.end() && it->row == row && it->column <= last; ++it) {
+                    const double distance = glm::distance(place(it->end), p);
+                    if (distance > nearest || (distance == nearest && found != kNone)) continue;
+                    nearest = distance;
+                    found = it->end;
                 }
             }
+            if (found == kNone) places.push_back(cell);
             place_of[cell.end] = found == kNone ? cell.end : found;
         }
         std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;

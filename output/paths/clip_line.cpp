@@ -22,7 +22,8 @@ std::vector<ClippedPart> clipped_line(std::span<const glm::dvec2> line, glm::dve
             end = std::min(end, std::max(a, b));
         }
         if (begin <= end) {
-            if (!goes_on || begin > 0) parts.push_back({{begin > 0 ? from + way * begin : from}, at_px + begin * length});
+            if (!goes_on || begin > 0)
+                parts.push_back({{begin > 0 ? from + way * begin : from}, at_px + begin * length});
             parts.back().points.push_back(end < 1 ? from + way * end : line[i + 1]);
         }
         goes_on = begin <= end && end >= 1;
