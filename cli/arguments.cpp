@@ -9,6 +9,7 @@
 
 #include "base/suggestion.h"
 #include "cli/option_values.h"
+#include "cli/vector_options.h"
 #include "mesh/model.h"
 #include "mesh/text_scan.h"
 #include "methods/method_table.h"
@@ -28,7 +29,7 @@ struct Texts {
         supersample;
     std::string width, color, dpi, frame, save_lines, find, crease, hidden, style, layers, frames, crop, threads,
         memory, model_memory, stats, bits;
-    std::string tolerance, chord_sag, dashes, group, ids;
+    VectorTexts vector;
     std::string repeat, progress, pixel, background, methods, compare_frames;
     std::vector<std::string> sets;
     int verbose = 0;
@@ -42,18 +43,18 @@ void add_file_options(CLI::App& app, Texts& t) {
     app.add_option("--bits", t.bits, "bits per value of PNG and TIFF, 8 (default) or 16");
     app.add_option("--background", t.background,
                    "colour of the paper of PNG, TIFF and vector files, #rrggbb, or transparent");
-    app.add_option("--tolerance", t.tolerance,
+    app.add_option("--tolerance", t.vector.tolerance,
                    "vector files: how far curves may be from lines, in pixels, 0.001 to 10 (default 0.02)");
     app.add_option(
-        "--chord-sag", t.chord_sag,
+        "--chord-sag", t.vector.chord_sag,
         "vector files: how much farther they may be from straight parts between vertices, in pixels, 0 to 10 "
         "(default 0.05); more makes circles of coarse polygons");
-    app.add_option("--dashes", t.dashes,
+    app.add_option("--dashes", t.vector.dashes,
                    "vector files: pattern (default), the viewer cuts dashes, or real, each dash is a path");
-    app.add_option("--group", t.group,
+    app.add_option("--group", t.vector.group,
                    "vector files: what is grouped within visible and hidden lines: class (default), object, or qi, a "
                    "layer for each number of surfaces in front");
-    app.add_option("--ids", t.ids, "vector files: paths have ids and data-* (all, default), or none");
+    app.add_option("--ids", t.vector.ids, "vector files: paths have ids and data-* (all, default), or none");
     app.add_option("--stats", t.stats, "write times and counts as JSON to this file; - = standard output");
 }
 
@@ -368,30 +369,6 @@ void fill_render_options(const Texts& t, Arguments& a) {
     a.finds_all = t.find == "all";
 }
 
-void fill_vector_options(const Texts& t, Arguments& a) {
-    if (!t.tolerance.empty()) {
-        a.tolerance_px = number("--tolerance", t.tolerance);
-        if (!(a.tolerance_px >= 0.001 && a.tolerance_px <= 10)) fail("--tolerance", "must be from 0.001 to 10 pixels");
-    }
-    if (!t.chord_sag.empty()) {
-        a.chord_sag_px = number("--chord-sag", t.chord_sag);
-        if (!(a.chord_sag_px >= 0 && a.chord_sag_px <= 10)) fail("--chord-sag", "must be from 0 to 10 pixels");
-    }
-    if (!t.dashes.empty() && t.dashes != "pattern" && t.dashes != "real") fail("--dashes", "must be pattern or real");
-    a.cuts_dashes = t.dashes == "real";
-    if (t.group == "object") {
-        a.grouping = VectorGrouping::object;
-    } else if (t.group == "qi") {
-        a.grouping = VectorGrouping::invisibility;
-    } else if (!t.group.empty() && t.group != "class") {
-        fail("--group", "must be class, object or qi");
-    }
-    if (!t.ids.empty() && t.ids != "all" && t.ids != "none") fail("--ids", "must be all or none");
-    a.names_paths = t.ids != "none";
-    a.has_vector_options =
-        !(t.tolerance.empty() && t.chord_sag.empty() && t.dashes.empty() && t.group.empty() && t.ids.empty());
-}
-
 /// Known methods, each once, in the order given.
 std::vector<std::string> method_names(std::string_view text) {
     std::vector<std::string> names;
@@ -496,7 +473,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
                                : Command::explain;
         fill_scene_options(t, a);
         fill_render_options(t, a);
-        fill_vector_options(t, a);
+        fill_vector_options(t.vector, a);
         if (*compare) fill_compare_options(t, a);
         if (*explain) a.pixel = integers<2>("--pixel", t.pixel, ',', "X,Y");
     }
