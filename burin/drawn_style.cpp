@@ -39,8 +39,8 @@ void check_was_found(const StyleSheet& sheet, const CompiledSheet& compiled, con
 
 }  // namespace
 
-InkedLines inked_lines_of(const burin_drawing& drawing, const char* style, int threads,
-                          std::vector<std::string>& notes) {
+InkedLines inked_lines_of(const burin_drawing& drawing, const char* style, int threads, std::vector<std::string>& notes,
+                          const InkWishes& wishes) {
     if (!drawing.found)
         throw UsageError(std::string("style: the drawing's lines were found without a style sheet") + kFindForIt);
     threads = resolve_thread_count(threads);
@@ -48,7 +48,7 @@ InkedLines inked_lines_of(const burin_drawing& drawing, const char* style, int t
     inked.filter = drawing.scene.lines.style.filter;
     const PixelFilter filter = inked.filter;
     if (style == nullptr) {
-        inked = ink_lines(*drawing.found, *drawing.frame.sheet, threads, notes);
+        inked = ink_lines(*drawing.found, *drawing.frame.sheet, threads, notes, wishes);
         inked.filter = filter;
         return inked;
     }
@@ -57,11 +57,11 @@ InkedLines inked_lines_of(const burin_drawing& drawing, const char* style, int t
     const CompiledSheet compiled(sheet, context_of(drawing));
     check_was_found(sheet, compiled, drawing);
     if (sheet.light == drawing.found->light) {
-        inked = ink_lines(*drawing.found, compiled, threads, notes);
+        inked = ink_lines(*drawing.found, compiled, threads, notes, wishes);
     } else {
         FoundLines lit = *drawing.found;
         lit.light = sheet.light;
-        inked = ink_lines(lit, compiled, threads, notes);
+        inked = ink_lines(lit, compiled, threads, notes, wishes);
     }
     inked.filter = sheet.filter.value_or(filter);
     return inked;

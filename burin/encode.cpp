@@ -5,14 +5,18 @@
 #include <new>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/lower_extension.h"
 #include "base/parallel.h"
 #include "burin/drawing.h"
+#include "burin/drawn_style.h"
 #include "burin/failure.h"
 #include "burin/picture.h"
 #include "mesh/text_scan.h"
 #include "output/film_files.h"
+#include "output/paths/make_paths.h"
+#include "output/svg.h"
 
 namespace burin {
 namespace {
@@ -54,6 +58,24 @@ class GivenPicture {
     std::unique_ptr<burin_picture> drawn_;
 };
 
+/// A drawing as the text of a vector file.
+std::string vector_text(const void* given, const char* style) {
+    if (given == nullptr) throw UsageError("picture_or_drawing is NULL");
+    if (*static_cast<const OutputKind*>(given) != OutputKind::drawing)
+        throw UsageError("format: a vector file is made of a drawing of burin_find_lines(), not of a picture");
+    const auto& drawing = *static_cast<const burin_drawing*>(given);
+    std::vector<std::string> notes;  // burin_draw() has them
+    InkedLines inked = inked_lines_of(drawing, style, drawing.threads, notes, {true, false});
+    VectorOptions options;
+    options.crop = drawing.frame.crop;
+    VectorStats stats;
+    VectorDrawing paths = vector_drawing_of(std::move(inked), *drawing.found, options, stats);
+    const PictureSettings& picture = drawing.scene.picture;
+    paths.paper = picture.background;
+    if (!paths.paper && !picture.transparent) paths.paper = glm::vec3(1.0f);
+    return svg_of(paths);
+}
+
 /// What can be written of a picture in this format.
 void check_layers(const burin_picture& picture, const NamedFormat& format) {
     if (format.format != OutputFormat::exr && picture.film.image().find("R") == nullptr) {
@@ -73,15 +95,20 @@ using namespace burin;
 int burin_encode(const void* picture_or_drawing, const char* format, const char* style, uint8_t** bytes,
                  uint64_t* count) {
     return guarded([&] {
-        const GivenPicture given(picture_or_drawing, style);
-        const burin_picture& from = *given;
         const NamedFormat& as = format_named(&required(format, "format"));
         required(bytes, "bytes");
         required(count, "count");
-        check_layers(from, as);
         MemorySink file;
-        const std::string name = "picture" + std::string(as.suffix);
-        write_output(file, from.settings, from.film.image(), options_of(from, as, name));
+        if (is_vector(as.format)) {
+            const std::string text = vector_text(picture_or_drawing, style);
+            file.write(text.data(), text.size());
+        } else {
+            const GivenPicture given(picture_or_drawing, style);
+            const burin_picture& from = *given;
+            check_layers(from, as);
+            const std::string name = "picture" + std::string(as.suffix);
+            write_output(file, from.settings, from.film.image(), options_of(from, as, name));
+        }
         auto* const copy = static_cast<uint8_t*>(std::malloc(std::max<std::size_t>(file.bytes().size(), 1)));
         if (copy == nullptr) throw std::bad_alloc();
         std::memcpy(copy, file.bytes().data(), file.bytes().size());
@@ -93,10 +120,17 @@ int burin_encode(const void* picture_or_drawing, const char* format, const char*
 
 int burin_write(const void* picture_or_drawing, const char* format, const char* style, const char* path) {
     return guarded([&] {
-        const GivenPicture given(picture_or_drawing, style);
-        const burin_picture& from = *given;
         const std::string file_path = &required(path, "path");
         const NamedFormat& as = format == nullptr ? format_of_path(file_path) : format_named(format);
+        if (is_vector(as.format)) {
+            const std::string text = vector_text(picture_or_drawing, style);
+            AtomicFile file(file_path);
+            file.write(text.data(), text.size());
+            file.commit();
+            return int{BURIN_DONE};
+        }
+        const GivenPicture given(picture_or_drawing, style);
+        const burin_picture& from = *given;
         check_layers(from, as);
         const OutputOptions options = options_of(from, as, file_path);
         if (as.format != OutputFormat::exr)

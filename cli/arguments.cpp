@@ -9,6 +9,7 @@
 
 #include "base/suggestion.h"
 #include "cli/option_values.h"
+#include "cli/vector_options.h"
 #include "mesh/model.h"
 #include "mesh/text_scan.h"
 #include "methods/method_table.h"
@@ -28,6 +29,7 @@ struct Texts {
         supersample;
     std::string width, color, dpi, frame, save_lines, find, crease, hidden, style, layers, frames, crop, threads,
         memory, model_memory, stats, bits;
+    VectorTexts vector;
     std::string repeat, progress, pixel, background, methods, compare_frames;
     std::vector<std::string> sets;
     int verbose = 0;
@@ -39,7 +41,20 @@ void add_file_options(CLI::App& app, Texts& t) {
     app.add_option("-o,--output", t.output,
                    "file to write: " + suffixes_of_formats() + " (default: INPUT's name with .png)");
     app.add_option("--bits", t.bits, "bits per value of PNG and TIFF, 8 (default) or 16");
-    app.add_option("--background", t.background, "colour of the paper of PNG and TIFF, #rrggbb, or transparent");
+    app.add_option("--background", t.background,
+                   "colour of the paper of PNG, TIFF and vector files, #rrggbb, or transparent");
+    app.add_option("--tolerance", t.vector.tolerance,
+                   "vector files: how far curves may be from lines, in pixels, 0.001 to 10 (default 0.02)");
+    app.add_option(
+        "--chord-sag", t.vector.chord_sag,
+        "vector files: how much farther they may be from straight parts between vertices, in pixels, 0 to 10 "
+        "(default 0.05); more makes circles of coarse polygons");
+    app.add_option("--dashes", t.vector.dashes,
+                   "vector files: pattern (default), the viewer cuts dashes, or real, each dash is a path");
+    app.add_option("--group", t.vector.group,
+                   "vector files: what is grouped within visible and hidden lines: class (default), object, or qi, a "
+                   "layer for each number of surfaces in front");
+    app.add_option("--ids", t.vector.ids, "vector files: paths have ids and data-* (all, default), or none");
     app.add_option("--stats", t.stats, "write times and counts as JSON to this file; - = standard output");
 }
 
@@ -459,6 +474,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
                                : Command::explain;
         fill_scene_options(t, a);
         fill_render_options(t, a);
+        fill_vector_options(t.vector, a);
         if (*compare) fill_compare_options(t, a);
         if (*explain) a.pixel = integers<2>("--pixel", t.pixel, ',', "X,Y");
     }

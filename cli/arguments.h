@@ -8,6 +8,7 @@
 
 #include "base/progress.h"
 #include "lines/line_class.h"
+#include "output/paths/vector_drawing.h"
 #include "render/film.h"
 #include "scene/scene_description.h"
 
@@ -45,6 +46,11 @@ struct Arguments {
     std::optional<std::array<int, 4>> crop;
     std::optional<std::array<int, 2>> pixel;
     std::string background;
+    VectorGrouping grouping = VectorGrouping::line_class;
+    double tolerance_px = 0.02, chord_sag_px = 0.05;
+    bool cuts_dashes = false;         ///< of vector files; else dashes are left to the viewer
+    bool names_paths = true;          ///< paths in vector files have ids and data-*
+    bool has_vector_options = false;  ///< any of these was given
     std::vector<Override> overrides;
     int bits = 8;
     int threads = 0;

@@ -18,6 +18,7 @@
 #include "base/stopwatch.h"
 #include "cli/job.h"
 #include "cli/output_options.h"
+#include "cli/vector_output.h"
 #include "image/image_io.h"
 #include "mesh/text_scan.h"
 #include "methods/abuffer.h"
@@ -31,6 +32,7 @@
 #include "render/copied_objects.h"
 #include "render/layer_names.h"
 #include "render/picture_notes.h"
+#include "scene/plain_sheet.h"
 
 namespace burin {
 namespace {
@@ -38,6 +40,7 @@ namespace {
 struct StageTimes {
     double load_s = 0, write_s = 0, total_s = 0;
     RenderStats render;
+    std::optional<VectorStats> paths;
 };
 
 /// The median of several renders, stage by stage.
@@ -66,6 +69,7 @@ std::string stats_json(const StageTimes& times, const Frame& frame, const Method
     json.key("triangles").value(times.render.triangles);
     json.key("fragments").value(times.render.fragments);
     json.key("peak_rss_bytes").value(std::uint64_t{1024} * static_cast<std::uint64_t>(usage.ru_maxrss));
+    if (times.paths) add_counts(json, *times.paths);
     json.key("stages").begin_object();
     json.key("load").value(times.load_s);
     json.key("prepare").value(times.render.prepare_s);
@@ -73,6 +77,7 @@ std::string stats_json(const StageTimes& times, const Frame& frame, const Method
     json.key("resolve").value(times.render.resolve_s);
     json.key("lines").value(times.render.lines_s);
     json.key("shade").value(times.render.shade_s);
+    if (times.paths) add_stages(json, *times.paths);
     json.key("write").value(times.write_s);
     json.key("total").value(times.total_s);
     json.end_object().end_object();
@@ -132,10 +137,16 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method, b
     if (a.names_layers && output.format != OutputFormat::exr) {
         std::fputs("burin: note: only an EXR has --layers; this file gets the beauty layer\n", stderr);
     }
+    if (a.has_vector_options && !is_vector(output.format)) {
+        std::fputs("burin: note: --tolerance, --chord-sag, --dashes, --group and --ids are for vector files\n", stderr);
+    }
     if (output.format == OutputFormat::exr && (a.bits != Arguments().bits || !a.background.empty())) {
         std::fputs(
             "burin: note: --bits and --background are for PNG and TIFF; an EXR is half precision without paper\n",
             stderr);
+    }
+    if (is_vector(output.format) && frame.scene->surfaces.shading == SurfaceShading::lambert) {
+        std::fputs("burin: note: a vector file has lines only; the surfaces are left out\n", stderr);
     }
     const auto note_if_unused = [&](bool is_given, const char* option, std::string_view user) {
         if (!is_given || method.name == user) return;
@@ -193,6 +204,12 @@ LayerSet layers_for(const Scene& scene, const Arguments& a) {
     }
 }
 
+/// Paths are made of what a style sheet draws; the look of [lines] is one, too.
+void draw_by_sheet(Scene& scene) {
+    if (!scene.sheet) scene.sheet = std::make_shared<const StyleSheet>(plain_sheet(scene.lines));
+    scene.names_lines = true;
+}
+
 Film make_film(const Frame& frame, const LayerSet& layers, bool in_bands, const std::string& path) {
     try {
         const PixelRect display{0, 0, frame.width, frame.height};
@@ -214,9 +231,14 @@ void run_render(const Arguments& a) {
     if (!a.save_lines.empty()) outputs.push_back({"--save-lines", a.save_lines});
     refuse_to_overwrite(outputs, {a.input});
     for (const OutputFile& file : outputs) check_output_file(file.path);
-    if (output.format != OutputFormat::exr) check_display_writer(output.path);
+    const bool has_paths = is_vector(output.format);
+    if (output.format != OutputFormat::exr && !has_paths) check_display_writer(output.path);
     const Method& method = a.method.empty() ? methods().front() : *find_method(a.method);
 
+    if (has_paths && method.name != "abuffer") {
+        throw UsageError("--output: method " + std::string(method.name) +
+                         " makes pixels only; draw a vector file with method abuffer");
+    }
     if (a.memory_bytes > 0 && method.name != "abuffer") {
         throw UsageError("--memory: method " + std::string(method.name) + " cannot render in pieces; abuffer can");
     }
@@ -233,6 +255,7 @@ void run_render(const Arguments& a) {
                          ": lines are found for a style sheet; give one with --style");
     }
     const bool has_hidden_lines = refuse_hidden_lines(a, method, scene);
+    if (has_paths) draw_by_sheet(scene);
     const Camera camera = camera_of(scene, a);
     empty_copied_objects(scene);
     close_cracks(scene, camera, scene.picture.width, scene.picture.height);
@@ -261,8 +284,16 @@ void run_render(const Arguments& a) {
             file.commit();
         };
     }
+    VectorDrawing drawing;
+    const auto draw = [&] {
+        if (!has_paths) return method.render(frame, run, film);
+        RenderStats stats;
+        const FoundLines lines = find_styled_lines(frame, run, film, stats);
+        drawing = draw_paths(lines, frame, a, times.paths.emplace(), stats.notes);
+        return stats;
+    };
     try {
-        times.render = method.render(frame, run, film);
+        times.render = draw();
     } catch (const LimitError& error) {
         throw InputError(a.input + ": --memory: " + error.what());
     } catch (const InputError& error) {
@@ -273,7 +304,7 @@ void run_render(const Arguments& a) {
     if (a.repeat > 0) {
         run.progress = nullptr;
         std::vector<RenderStats> runs;
-        for (int i = 0; i < a.repeat; ++i) runs.push_back(method.render(frame, run, film));
+        for (int i = 0; i < a.repeat; ++i) runs.push_back(draw());
         times.render = median_of(std::move(runs));
     }
     watch.lap();
@@ -288,6 +319,8 @@ void run_render(const Arguments& a) {
     }
     if (writer) {
         writer->finish();
+    } else if (has_paths) {
+        write_vector(drawing, a, output);
     } else {
         write_output(frame, film, output);
     }

@@ -13,6 +13,7 @@
 #include "cli/output_files.h"
 #include "cli/output_options.h"
 #include "cli/sheet_wishes.h"
+#include "cli/vector_output.h"
 #include "mesh/text_scan.h"
 #include "methods/abuffer.h"
 #include "output/film_files.h"
@@ -94,7 +95,8 @@ void run_restyle(const Arguments& a) {
     if (!source->file.empty()) inputs.push_back(source->file);
     refuse_to_overwrite(outputs, inputs);
     for (const OutputFile& file : outputs) check_output_file(file.path);
-    if (output.format != OutputFormat::exr) check_display_writer(output.path);
+    const bool has_paths = is_vector(output.format);
+    if (output.format != OutputFormat::exr && !has_paths) check_display_writer(output.path);
     for (const Override& o : a.overrides) {
         if (!o.key.starts_with("style."))
             throw UsageError("--set " + printable(o.key) + ": only values of the style sheet can be set here");
@@ -131,19 +133,33 @@ void run_restyle(const Arguments& a) {
         throw UsageError("--layers: coverage has a channel per line class, and no class is drawn");
     put_surfaces(file.surface, frame, film);
     std::vector<std::string> notes;
-    draw_found_lines(frame, file.lines, output.threads, film, notes);
+    VectorDrawing drawing;
+    VectorStats paths;
+    if (has_paths) {
+        drawing = draw_paths(file.lines, frame, a, paths, notes);
+        if (!file.surface.pixels.empty()) notes.push_back("a vector file has lines only; the surfaces are left out");
+    } else {
+        draw_found_lines(frame, file.lines, output.threads, film, notes);
+    }
     const double draw_s = watch.lap();
     if (!a.quiet) {
         for (const std::string& note : notes) std::fprintf(stderr, "burin: note: %s\n", printable(note, 4000).c_str());
     }
-    write_output(frame, film, output);
+    if (has_paths) {
+        write_vector(drawing, a, output);
+    } else {
+        write_output(frame, film, output);
+    }
     const double write_s = watch.lap();
     if (!a.stats.empty()) {
         JsonWriter json;
         json.begin_object().key("width").value(frame.width).key("height").value(frame.height);
         json.key("threads").value(output.threads);
+        if (has_paths) add_counts(json, paths);
         json.key("stages").begin_object();
-        json.key("load").value(load_s).key("lines").value(draw_s).key("write").value(write_s);
+        json.key("load").value(load_s).key("lines").value(draw_s);
+        if (has_paths) add_stages(json, paths);
+        json.key("write").value(write_s);
         json.key("total").value(total.seconds()).end_object().end_object();
         write_stats(a.stats, json.text());
     }

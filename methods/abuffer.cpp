@@ -58,10 +58,8 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     LineDrawing drawing;
     Stopwatch watch;
     if (frame.sheet) {
-        find_lines(frame, options, film, drawing, nullptr, stats);
+        const FoundLines lines = find_styled_lines(given, options, film, stats);
         watch.lap();
-        const FoundLines lines = found_lines(std::move(drawing), frame, stats.threads);
-        if (options.found_lines) options.found_lines(lines, film);
         draw_found_lines(frame, lines, stats.threads, film, stats.notes);
         stats.lines_s += watch.lap();
     } else if (frame.needs.rows_stand_alone()) {
@@ -80,6 +78,17 @@ RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& 
     }
     film.end_picture();
     return stats;
+}
+
+FoundLines find_styled_lines(const Frame& given, const RunOptions& options, Film& film, RenderStats& stats) {
+    const Frame frame = with_fading_creases(given);
+    LineDrawing drawing;
+    find_lines(frame, options, film, drawing, nullptr, stats);
+    Stopwatch watch;
+    FoundLines lines = found_lines(std::move(drawing), frame, stats.threads);
+    stats.lines_s += watch.lap();
+    if (options.found_lines) options.found_lines(lines, film);
+    return lines;
 }
 
 void draw_found_lines(const Frame& frame, const FoundLines& lines, int threads, Film& film,

@@ -30,6 +30,10 @@ FoundLines lines_for_sheet(LineDrawing found, const Frame& frame, int threads);
 /// Of the frame's surfaces it reads the projection alone.
 void draw_lines(const Frame& frame, const LineDrawing& drawing, const RunOptions& options, Film& film);
 
+/// Finds the lines of a frame with a style sheet, and all that shading reads of them: what render_abuffer() does before
+/// it draws. The surfaces are in the film then.
+FoundLines find_styled_lines(const Frame& frame, const RunOptions& options, Film& film, RenderStats& stats);
+
 /// Draws lines as the frame's style sheet says, over its surfaces. Of the frame's surfaces it reads the projection
 /// alone. `notes`: gets what users should know.
 void draw_found_lines(const Frame& frame, const FoundLines& lines, int threads, Film& film,

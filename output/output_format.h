@@ -6,11 +6,14 @@
 #include <string>
 #include <string_view>
 
-// The formats of pictures, from which follow names, suffixes and the lists of them in messages.
+// The formats of pictures and drawings, from which follow names, suffixes and the lists of them in messages.
 
 namespace burin {
 
-enum class OutputFormat : std::uint8_t { exr, png, tiff };
+enum class OutputFormat : std::uint8_t { exr, png, tiff, svg };
+
+/// Whether files of a format have paths instead of pixels.
+constexpr bool is_vector(OutputFormat format) { return format == OutputFormat::svg; }
 
 /// A format with its number of bits per value, as the library names it.
 struct NamedFormat {
@@ -20,11 +23,10 @@ struct NamedFormat {
     std::string_view suffix;
 };
 /// A suffix alone stands for the first row that has it.
-constexpr NamedFormat kNamedFormats[] = {{"exr", OutputFormat::exr, 8, ".exr"},
-                                         {"png", OutputFormat::png, 8, ".png"},
-                                         {"png16", OutputFormat::png, 16, ".png"},
-                                         {"tif", OutputFormat::tiff, 8, ".tif"},
-                                         {"tif16", OutputFormat::tiff, 16, ".tif"}};
+constexpr NamedFormat kNamedFormats[] = {
+    {"exr", OutputFormat::exr, 8, ".exr"},     {"png", OutputFormat::png, 8, ".png"},
+    {"png16", OutputFormat::png, 16, ".png"},  {"tif", OutputFormat::tiff, 8, ".tif"},
+    {"tif16", OutputFormat::tiff, 16, ".tif"}, {"svg", OutputFormat::svg, 8, ".svg"}};
 
 /// The suffix that files of a format have.
 constexpr std::string_view suffix_of(OutputFormat format) {

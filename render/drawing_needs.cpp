@@ -30,11 +30,12 @@ DrawingNeeds needs_of(const Scene& scene, const SheetNeeds& sheet) {
     DrawingNeeds needs;
     needs.classes = scene.finds_all ? LineClassSet::all() : sheet.classes;
     needs.most_invisibility = scene.finds_all ? DrawingNeeds::kAnyInvisibility : sheet.most_invisibility;
-    needs.tells_invisibility = scene.finds_all || sheet.tells_invisibility;
+    needs.tells_invisibility =
+        scene.finds_all || sheet.tells_invisibility || (scene.names_lines && needs.most_invisibility > 0);
     needs.is_transparent = has_transparent_surfaces(scene);
     needs.whole_picture = true;
     needs.whole_picture_behind = needs.behind();
-    needs.whole_lines = scene.finds_all || sheet.chains;
+    needs.whole_lines = scene.finds_all || scene.names_lines || sheet.chains;
     needs.surfaces_beyond = scene.finds_all || sheet.sides;
     needs.one_sided = sheet.one_sided;
     needs.reach_px =

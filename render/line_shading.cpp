@@ -77,6 +77,7 @@ FoundLines found_lines(LineDrawing drawing, const Frame& frame, int threads) {
     lines.filter = settings.style.filter;
     FoundLinesNeeds needs = found_needs_of(frame.sheet->needs());
     if (frame.scene->finds_all) needs.normals = needs.chains = true;
+    needs.chains = needs.chains || frame.scene->names_lines;
     if (lines.has_smooth_contours) needs.apart_px = SmoothContours::kApartPx;
     find_sides_and_runs(drawing, frame.surfaces, frame.criteria.cos_crease_angle, needs, threads, lines);
     return lines;

@@ -88,6 +88,8 @@ struct Scene {
     std::shared_ptr<const LineShaders> line_shaders;  ///< that the sheet may name; nullptr: the program has none
     /// Beside a sheet: lines are found and known as if it asked for everything, so that any sheet can restyle them.
     bool finds_all = false;
+    /// Beside a sheet: chains and how many surfaces hide a line are known, too, for vector files name lines by them.
+    bool names_lines = false;
     SurfaceStyle surfaces;
     std::vector<SceneLight> lights;  ///< the first one is the key light; none: it is at the eye
     AbufferSettings abuffer;

@@ -80,6 +80,7 @@ struct OpaqueInk {
 struct Inked {
     std::vector<InkPoint> points;
     std::vector<InkStroke> strokes;
+    std::vector<StrokeOrigin> origins;
     std::vector<OpaqueInk> opaque;
     std::vector<NotNumbersOfStyle> not_numbers;  // of its copies
 };
@@ -89,12 +90,13 @@ class StrokeMaker {
   public:
     /// `boundaries`: the number of the boundary that each piece is, or InkPoint::kNoBoundary.
     StrokeMaker(const LineColumns& lines, const CompiledSheet& sheet, std::span<const std::uint32_t> boundaries,
-                const Chunk& chunk, Inked& out)
+                const Chunk& chunk, const InkWishes& wishes, Inked& out)
         : lines_(lines),
           sheet_(sheet),
           boundaries_(boundaries),
           chunk_(chunk),
           style_(sheet.style_of(chunk.set)),
+          wishes_(wishes),
           out_(out) {}
 
     void make() {
@@ -104,6 +106,7 @@ class StrokeMaker {
         for (int copy = 0; copy < settings.copies; ++copy) {
             const SampleVariant variant{settings.seed + turn * 0x9E3779B9u, static_cast<std::uint32_t>(copy),
                                         sheet_.sets()[chunk_.set].name};
+            variant_.copy = variant.copy;
             StrokeValues values(lines_, style_, variant, sheet_.sets()[chunk_.set].test.get());
             for (SampledStroke& stroke : sample_strokes(lines_, chunk_.stretches, values)) {
                 finish(stroke, static_cast<std::uint64_t>(copy));
@@ -127,6 +130,7 @@ class StrokeMaker {
             if (has_end && !run.is_closed && goes_on(run.ends[1])) lengthen_end(stroke.path, false, px);
         }
         chain_ = std::uint64_t{stroke.stretch.run} << 3 | copy;
+        if (wishes_.origins) edge_ = lines_.chain_hash(run, variant_).bits();
         halo_px_ = style_.has_halo ? value_of(stroke.chain, ChainValue::halo) : 0;
         halo_depth_px_ = {value_of(stroke.chain, ChainValue::halo_depth_near),
                           value_of(stroke.chain, ChainValue::halo_depth_far)};
@@ -149,6 +153,14 @@ class StrokeMaker {
             // Dashes that cannot be seen are a line of less strength.
             for (PathPoint& point : stroke.path) point.ink.opacity *= static_cast<float>(pattern.share());
             return add(stroke.path, loop_px > 0 && stroke.path.size() > 1);
+        }
+        if (!wishes_.cuts_dashes && is_constant(stroke.path)) {
+            const double scale = dash_scale(pattern, loop_px);
+            for (const double length : pattern.lengths_px) dash_px_.push_back(static_cast<float>(length * scale));
+            dash_begin_px_ = pattern.phase_px * scale;
+            add(stroke.path, stroke.path.size() > 1 && loop_px > 0);
+            dash_px_.clear();
+            return;
         }
         for_dashes(stroke.path, pattern, loop_px, [this](const StrokePath& dash) { add(dash, false); });
     }
@@ -205,6 +217,29 @@ class StrokeMaker {
         add_part(std::span(path).subspan(first), is_loop && first == 0);
     }
 
+    static bool is_constant(std::span<const PathPoint> path) {
+        const InkPoint& first = path.front().ink;
+        return std::all_of(path.begin(), path.end(), [&first](const PathPoint& p) {
+            return p.ink.width_px == first.width_px && p.ink.opacity == first.opacity && p.ink.color == first.color;
+        });
+    }
+
+    void add_origin(std::span<const PathPoint> path) {
+        StrokeOrigin origin;
+        origin.object = lines_.object_of(path.front().piece);
+        origin.invisibility = 255;
+        for (const PathPoint& p : path) origin.invisibility = std::min(origin.invisibility, piece_of(p).invisibility);
+        origin.edge = edge_;
+        origin.dash_px = dash_px_;
+        if (!dash_px_.empty()) {
+            double period = 0;
+            for (const float length : dash_px_) period += static_cast<double>(length);
+            origin.dash_phase_px = static_cast<float>(std::fmod(dash_begin_px_ + path.front().at_px, period));
+            if (origin.dash_phase_px < 0) origin.dash_phase_px += static_cast<float>(period);
+        }
+        out_.origins.push_back(std::move(origin));
+    }
+
     void add_part(std::span<const PathPoint> path, bool is_loop) {
         const bool is_seen = std::any_of(path.begin(), path.end(),
                                          [](const PathPoint& p) { return p.ink.width_px > 0 && p.ink.opacity > 0; });
@@ -221,10 +256,8 @@ class StrokeMaker {
         stroke.is_closed = is_loop && path.front().ink.place == path.back().ink.place;
         stroke.halo_px = halo_px_;
         stroke.halo_depth_px = halo_depth_px_;
-        const InkPoint& first = path.front().ink;
-        stroke.is_constant = std::all_of(path.begin(), path.end(), [&first](const PathPoint& p) {
-            return p.ink.width_px == first.width_px && p.ink.opacity == first.opacity && p.ink.color == first.color;
-        });
+        stroke.is_constant = is_constant(path);
+        if (wishes_.origins) add_origin(path);
         for (const PathPoint& p : path) {
             out_.points.push_back(p.ink);
             if (!is_moved_) out_.points.back().boundary = boundaries_[p.piece];
@@ -238,8 +271,12 @@ class StrokeMaker {
     const Chunk& chunk_;
     const CompiledStyle& style_;
     bool is_moved_ = false;  ///< the stroke
+    const InkWishes& wishes_;
     Inked& out_;
-    std::uint64_t chain_ = 0;
+    SampleVariant variant_;  // for names of edges
+    std::uint64_t chain_ = 0, edge_ = 0;
+    std::vector<float> dash_px_;
+    double dash_begin_px_ = 0;
     float halo_px_ = 0;
     glm::vec2 halo_depth_px_{0.0f};
 };
@@ -309,16 +346,17 @@ void add_notes_on_numbers(const CompiledSheet& sheet, std::span<const Chunk> chu
 
 }  // namespace
 
-InkedLines ink_lines(const FoundLines& found, const CompiledSheet& sheet, int threads,
-                     std::vector<std::string>& notes) {
+InkedLines ink_lines(const FoundLines& found, const CompiledSheet& sheet, int threads, std::vector<std::string>& notes,
+                     const InkWishes& wishes) {
     const LineColumns lines(found, sheet.needs().classes, sheet.needs().variables);
     const SetMatches matches = match_pieces(lines, sheet);
     const std::vector<Chunk> chunks = chunks_of(found.runs, matches, sheet.sets().size());
     InkedLines inked;
     const std::vector<std::uint32_t> boundaries = add_boundaries(lines, inked);
     std::vector<Inked> parts(chunks.size());
-    parallel_for(chunks.size(), threads,
-                 [&](std::size_t i, int) { StrokeMaker(lines, sheet, boundaries, chunks[i], parts[i]).make(); });
+    parallel_for(chunks.size(), threads, [&](std::size_t i, int) {
+        StrokeMaker(lines, sheet, boundaries, chunks[i], wishes, parts[i]).make();
+    });
 
     std::size_t points = 0, strokes = 0;
     for (const Inked& part : parts) {
@@ -334,8 +372,12 @@ InkedLines ink_lines(const FoundLines& found, const CompiledSheet& sheet, int th
             stroke.first_point += before;
             inked.strokes.push_back(stroke);
         }
+        inked.origins.insert(inked.origins.end(), part.origins.begin(), part.origins.end());
     }
-    for (const CompiledSet& set : sheet.sets()) inked.layers.push_back(set.layer);
+    for (const CompiledSet& set : sheet.sets()) {
+        inked.layers.push_back(set.layer);
+        inked.sets.push_back(set.name);
+    }
     add_ink_along(parts, boundaries, inked);
     add_notes_on_numbers(sheet, chunks, parts, notes);
     return inked;

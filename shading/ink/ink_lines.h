@@ -9,6 +9,12 @@
 
 namespace burin {
 
+/// What is wanted beside strokes.
+struct InkWishes {
+    bool origins = false;     ///< InkedLines::origins
+    bool cuts_dashes = true;  ///< else strokes of constant ink keep their pattern in StrokeOrigin
+};
+
 /// Draws lines as a style sheet says: finds the line sets that take each piece, evaluates their styles at as many
 /// stroke samples as the bound on errors needs, and makes strokes of them. This is the same for all outputs.
 ///
@@ -16,6 +22,7 @@ namespace burin {
 /// 1/8 pixel; of places 1/16 pixel; of opacity and of each colour channel 1/128.
 ///
 /// `lines`: with what the sheet needs. `notes`: gets a message for each value that was no number.
-InkedLines ink_lines(const FoundLines& lines, const CompiledSheet& sheet, int threads, std::vector<std::string>& notes);
+InkedLines ink_lines(const FoundLines& lines, const CompiledSheet& sheet, int threads, std::vector<std::string>& notes,
+                     const InkWishes& wishes = {});
 
 }  // namespace burin

@@ -79,14 +79,29 @@ struct InkBoundary {
     float drawn_width_px = std::numeric_limits<float>::infinity();
 };
 
+/// What vector files say of a stroke beside its ink.
+struct StrokeOrigin {
+    std::uint32_t object = 0;       ///< in front, from 1; 0: none
+    std::uint8_t invisibility = 0;  ///< how many opaque surfaces are in front of it, at least
+    /// A name of its line: a hash of the object's name, and of the place in the object where the line's chain begins.
+    /// Contours, and lines whose chains are not known, have one name per object and class.
+    std::uint64_t edge = 0;
+    /// Of a stroke whose dashes are not cut: on, off, on, off ... in pixels, and where in it the stroke begins; empty:
+    /// it is solid.
+    std::vector<float> dash_px;
+    float dash_phase_px = 0;
+};
+
 /// The lines of a picture with their looks.
 struct InkedLines {
     std::vector<InkPoint> points;
-    std::vector<InkStroke> strokes;  ///< chain by chain, in an order that does not depend on threads
+    std::vector<InkStroke> strokes;     ///< chain by chain, in an order that does not depend on threads
+    std::vector<StrokeOrigin> origins;  ///< of each stroke, if they were asked for
     std::vector<InkBoundary> boundaries;
     PixelFilter filter = PixelFilter::box;
     /// For each set (InkOrder::set): the name of a layer of its own in the files, or nothing.
     std::vector<std::string> layers;
+    std::vector<std::string> sets;  ///< names of all sets, by InkOrder::set
 
     std::span<const InkPoint> points_of(const InkStroke& stroke) const {
         return std::span(points).subspan(stroke.first_point, stroke.point_count);

@@ -139,11 +139,16 @@ double DashPattern::share() const {
     return period > 0 ? on / period : 1;
 }
 
+double dash_scale(const DashPattern& pattern, double loop_px) {
+    const double period = pattern.period_px();
+    return loop_px > 0 ? loop_px / (period * std::max(1.0, std::round(loop_px / period))) : 1;
+}
+
 void for_dashes(const StrokePath& path, const DashPattern& pattern, double loop_px,
                 const std::function<void(const StrokePath&)>& visit) {
     if (path.size() < 2) return;
     const double period = pattern.period_px();
-    const double scale = loop_px > 0 ? loop_px / (period * std::max(1.0, std::round(loop_px / period))) : 1;
+    const double scale = dash_scale(pattern, loop_px);
     const double begin = path.front().at_px, end = path.back().at_px;
     const double first = std::floor((begin / scale + pattern.phase_px) / period) - 1;
     for (double turn = first;; ++turn) {

@@ -40,6 +40,10 @@ struct DashPattern {
     double share() const;
 };
 
+/// What lengths of a pattern are multiplied by, so that it has no seam where a chain is a loop of this length; 0: it is
+/// none.
+double dash_scale(const DashPattern& pattern, double loop_px);
+
 /// Calls visit(dash) for the dashes of a path, each of them a path of its own. `loop_px`: the length of the chain if it
 /// is a loop, on which the pattern is stretched or squeezed so that there is no seam; else 0. A dash no longer than the
 /// pen is wide is a dot.

@@ -193,5 +193,19 @@ TEST(LibraryStyle, SetsHaveLayersOfTheirOwn) {
     EXPECT_EQ(failure_of([&] { from.render(kView, {.layers = "lines_edges"}); }, &error), BURIN_BAD_ARGUMENT);
 }
 
+TEST(LibraryStyle, DrawingsAreWrittenAsPaths) {
+    const TemporaryFolder folder;
+    const ProgramResult result = run_burin(folder.path(), {"render", kScenes + "cube.toml", "--size", "160x120", "-q",
+                                                           "--style", "pencil", "-o", "program.svg"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    Scene scene = Scene::load(kScenes + "cube.toml");
+    scene.set_style("pencil");
+    const Drawing drawing = scene.find_lines(kView);
+    const std::vector<std::byte> svg = drawing.encode("svg");
+    EXPECT_TRUE(std::string(reinterpret_cast<const char*>(svg.data()), svg.size()) ==
+                read_file(folder.file("program.svg")));
+    EXPECT_THROW(scene.render(kView).encode("svg"), Error);
+}
+
 }  // namespace
 }  // namespace burin::test

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "cli/arguments.h"
+
+namespace burin {
+
+/// Options of vector files as they were typed.
+struct VectorTexts {
+    std::string tolerance, chord_sag, dashes, group, ids;
+};
+
+/// Checks them. Throws UsageError.
+void fill_vector_options(const VectorTexts& texts, Arguments& arguments);
+
+}  // namespace burin

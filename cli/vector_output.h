@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/json_writer.h"
+#include "cli/arguments.h"
+#include "output/film_files.h"
+#include "output/paths/make_paths.h"
+#include "render/frame.h"
+
+namespace burin {
+
+/// Draws lines as paths, as the frame's style sheet says. Of the frame's surfaces it reads nothing. `notes`: gets what
+/// users should know.
+VectorDrawing draw_paths(const FoundLines& lines, const Frame& frame, const Arguments& arguments, VectorStats& stats,
+                         std::vector<std::string>& notes);
+
+/// Writes a drawing to its file. Throws InputError.
+void write_vector(const VectorDrawing& drawing, const Arguments& arguments, const OutputOptions& output);
+
+/// Adds the times of making paths to the stages, and counts behind these.
+void add_stages(JsonWriter& json, const VectorStats& stats);
+void add_counts(JsonWriter& json, const VectorStats& stats);
+
+}  // namespace burin

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+
+#include "output/paths/vector_drawing.h"
+
+namespace burin {
+
+/// A number of hundredths as text, as short as it can be: "12", "-.5".
+std::string text_of_hundredths(long long hundredths);
+/// A number with up to four decimals.
+std::string short_number(double value);
+
+/// The value of SVG's attribute `d`: relative commands between points that are rounded to 1/100, so that errors do not
+/// add up.
+std::string path_data(const VectorPath& path, std::span<const PathStep> steps);
+
+}  // namespace burin

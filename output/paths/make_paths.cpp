@@ -1,0 +1,122 @@
+#include "output/paths/make_paths.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "output/paths/chain_paths.h"
+#include "output/paths/clean_paths.h"
+#include "output/paths/cut_halos.h"
+#include "output/paths/fit_path.h"
+#include "output/paths/merge_strokes.h"
+#include "output/paths/path_lines.h"
+
+namespace burin {
+namespace {
+
+/// Puts what is to be one group next to each other.
+void sort_to_groups(VectorGrouping grouping, std::vector<PathLine>& lines) {
+    if (grouping != VectorGrouping::object) return;
+    std::stable_sort(lines.begin(), lines.end(), [](const PathLine& a, const PathLine& b) {
+        // Hidden ones lie below visible ones, whatever the object.
+        return std::tuple(!a.kind.order.is_hidden, a.object) < std::tuple(!b.kind.order.is_hidden, b.object);
+    });
+}
+
+VectorGroup group_of(VectorGrouping grouping, const PathLine& line) {
+    VectorGroup group;
+    group.is_hidden = line.kind.order.is_hidden;
+    group.invisibility = line.kind.invisibility;
+    if (grouping == VectorGrouping::object) {
+        group.object = line.object;
+    } else {
+        group.set = line.kind.order.set;
+        group.line_class = line.kind.order.drawn_as;
+    }
+    return group;
+}
+
+bool is_one_group(const VectorGroup& a, const VectorGroup& b) {
+    const auto key = [](const VectorGroup& g) {
+        return std::tuple(g.is_hidden, g.invisibility, g.set, g.line_class, g.object);
+    };
+    return key(a) == key(b);
+}
+
+/// Whether colour or opacity change along a stroke.
+bool varies(std::span<const InkPoint> points) {
+    return std::any_of(points.begin(), points.end(), [&](const InkPoint& p) {
+        return p.opacity != points.front().opacity || p.color != points.front().color;
+    });
+}
+
+/// Adds a path, in several ones if it has more steps than all programs take.
+void add_in_parts(VectorPath path, VectorDrawing& drawing) {
+    const std::size_t end = path.first_step + path.step_count;
+    if (path.step_count > kMostPathSteps) path.is_closed = false;
+    for (std::size_t begin = path.first_step;; begin += kMostPathSteps) {
+        path.first_step = begin;
+        path.step_count = std::min(end - begin, kMostPathSteps);
+        drawing.paths.push_back(path);
+        ++drawing.groups.back().path_count;
+        if (begin + path.step_count >= end) return;
+        path.start = drawing.steps[begin + path.step_count - 1].to;
+    }
+}
+
+}  // namespace
+
+VectorDrawing vector_drawing_of(InkedLines inked, const FoundLines& found, const VectorOptions& options,
+                                VectorStats& stats) {
+    VectorDrawing drawing;
+    drawing.width_px = found.width_px;
+    drawing.height_px = found.height_px;
+    drawing.crop = options.crop;
+    drawing.dpi = found.dpi;
+    drawing.grouping = options.grouping;
+    for (const ObjectOfLines& object : found.objects) drawing.objects.push_back(object.name);
+
+    drawing.sets = inked.sets;
+
+    Stopwatch watch;
+    const PixelRect picture{0, 0, found.width_px, found.height_px};
+    inked = with_halos_cut(with_runs_merged(std::move(inked)), found.projection, picture);
+    for (const InkStroke& stroke : inked.strokes) stats.mean_inks += varies(inked.points_of(stroke)) ? 1 : 0;
+    PathLines lines = path_lines_of(inked, options.grouping, options.crop);
+    stats.strokes = lines.lines.size();
+    lines = chained_paths(lines);
+    stats.chained = lines.lines.size();
+    stats.chain_s = watch.lap();
+    // Of what is left, other lines are the only ones that go on in each other.
+    lines = chained_paths(cleaned_paths(lines, picture));
+    stats.clean_s = watch.lap();
+
+    sort_to_groups(options.grouping, lines.lines);
+    drawing.styles = lines.styles;
+    for (const PathLine& line : lines.lines) {
+        VectorGroup group = group_of(options.grouping, line);
+        if (drawing.groups.empty() || !is_one_group(drawing.groups.back(), group)) {
+            group.first_path = drawing.paths.size();
+            drawing.groups.push_back(group);
+        }
+        VectorPath path;
+        path.first_step = drawing.steps.size();
+        path.is_closed = line.is_closed;
+        path.style = line.kind.style;
+        path.object = line.object;
+        path.invisibility = line.invisibility;
+        path.dash_phase_px = line.dash_phase_px;
+        path.first_edge = line.first_edge;
+        path.edge_count = line.edge_count;
+        path.start = fit_path(lines.points_of(line), line.is_closed, options.bounds, drawing.steps);
+        path.step_count = drawing.steps.size() - path.first_step;
+        add_in_parts(path, drawing);
+    }
+    drawing.edges = std::move(lines.edges);
+    stats.paths = drawing.paths.size();
+    stats.fit_s = watch.lap();
+    return drawing;
+}
+
+}  // namespace burin

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "output/paths/fit_path.h"
+#include "output/paths/vector_drawing.h"
+#include "shading/ink/found_lines.h"
+
+namespace burin {
+
+struct VectorOptions {
+    FitBounds bounds;
+    VectorGrouping grouping = VectorGrouping::line_class;
+    PixelRect crop;  ///< of the picture: what is shown
+};
+
+/// Counts and times of making paths, for --stats.
+struct VectorStats {
+    std::size_t strokes = 0, chained = 0, paths = 0;
+    std::size_t mean_inks = 0;  ///< strokes whose colour or opacity varies: their paths have the means
+    double chain_s = 0, clean_s = 0, fit_s = 0;
+};
+
+/// Makes a drawing of lines with their looks: joins strokes to the longest paths, takes away what is drawn twice, and
+/// fits curves. `inked`: with origins. Of `lines` it reads what describes the picture, and the names of objects.
+VectorDrawing vector_drawing_of(InkedLines inked, const FoundLines& lines, const VectorOptions& options,
+                                VectorStats& stats);
+
+}  // namespace burin

@@ -1,0 +1,71 @@
+// Vector files from the command line.
+
+#include <gtest/gtest.h>
+
+#include "tests/cli/program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace burin::test {
+namespace {
+
+std::string scene_file(const std::string& name) { return std::string(BURIN_SOURCE_FOLDER) + "/scenes/" + name; }
+
+TEST(VectorFiles, RenderAndRestyleWriteTheSame) {
+    const TemporaryFolder folder;
+    for (const char* const style : {"technical", "pencil"}) {
+        ASSERT_EQ(run_burin(folder.path(), {"render", scene_file("still_life.toml"), "-o", "a.svg", "-r", "160x120",
+                                            "-q", "--style", style, "--find", "all", "--save-lines", "a.lines"})
+                      .err,
+                  "");
+        ASSERT_EQ(
+            run_burin(folder.path(), {"restyle", "a.lines", "-o", "b.svg", "--style", style, "-j", "1", "-q"}).err, "");
+        EXPECT_TRUE(read_file(folder.file("a.svg")) == read_file(folder.file("b.svg"))) << style;
+    }
+}
+
+TEST(VectorFiles, OptionsSayWhatIsInThem) {
+    const TemporaryFolder folder;
+    const auto svg = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments = {"render", scene_file("cube.toml"), "-o", "a.svg", "-r", "160x120", "-q"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_EQ(run_burin(folder.path(), arguments).err, "");
+        return read_file(folder.file("a.svg"));
+    };
+    const auto has = [](const std::string& text, const std::string& part) {
+        return text.find(part) != std::string::npos;
+    };
+    const std::string plain = svg({"--hidden", "dashed"});
+    EXPECT_TRUE(has(plain, "width=\"42.3333mm\" height=\"31.75mm\" viewBox=\"0 0 160 120\""));
+    EXPECT_TRUE(has(plain, "inkscape:label=\"1 visible\"") && has(plain, "inkscape:label=\"2 hidden\""));
+    EXPECT_TRUE(has(plain, "stroke-dasharray=") && has(plain, "data-edge=") && has(plain, "id=\"paper\""));
+    EXPECT_FALSE(has(svg({"--hidden", "dashed", "--dashes", "real"}), "stroke-dasharray"));
+    EXPECT_FALSE(has(svg({"--ids", "none"}), "data-edge"));
+    EXPECT_FALSE(has(svg({"--background", "transparent"}), "id=\"paper\""));
+    EXPECT_TRUE(has(svg({"--background", "#ff0000"}), "fill=\"#f00\""));
+    EXPECT_TRUE(has(svg({"--dpi", "25.4"}), "width=\"160mm\""));
+    EXPECT_TRUE(has(svg({"--crop", "20,10,120,100"}), "viewBox=\"20 10 100 90\""));
+    EXPECT_TRUE(has(svg({"--group", "object"}), "<g id=\"visible-o"));
+    EXPECT_TRUE(has(svg({"--stats", "a.json"}), "<path"));
+    EXPECT_TRUE(has(read_file(folder.file("a.json")), "\"clean\""));
+}
+
+TEST(VectorFiles, WhatCannotBeIsRefusedOrNoted) {
+    const TemporaryFolder folder;
+    const std::string cube = scene_file("cube.toml");
+    const auto err = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments = {"render", cube, "-r", "160x120"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_burin(folder.path(), arguments).err;
+    };
+    EXPECT_NE(err({"-o", "a.svg", "-m", "patel"}).find("makes pixels only"), std::string::npos);
+    EXPECT_NE(err({"-o", "a.svg", "--tolerance", "0"}).find("--tolerance"), std::string::npos);
+    EXPECT_NE(err({"-o", "a.svg", "--dashes", "some"}).find("pattern or real"), std::string::npos);
+    EXPECT_NE(err({"-o", "a.svg", "--group", "colour"}).find("class, object or qi"), std::string::npos);
+    EXPECT_NE(err({"-o", "a.png", "--group", "object"}).find("are for vector files"), std::string::npos);
+    EXPECT_NE(err({"-o", "a.svg", "--set", "surfaces.shading=lambert"}).find("surfaces are left out"),
+              std::string::npos);
+    EXPECT_NE(err({"-o", "a.svg", "--style", "pencil"}).find("one colour and opacity"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace burin::test

@@ -1,0 +1,245 @@
+// Scenes become vector drawings.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "output/paths/arc.h"
+#include "output/paths/make_paths.h"
+#include "output/paths/simplify.h"
+#include "output/svg.h"
+#include "scene/plain_sheet.h"
+#include "tests/support/rough_sphere.h"
+#include "tests/support/shaded_scene.h"
+
+namespace burin {
+namespace {
+
+using namespace test;
+
+constexpr int kWidth = 240, kHeight = 180;
+constexpr const char* kPlain =
+    "style_version = 1\n[[set]]\nname='visible'\nstyle='ink'\nclasses=['silhouette','crease','intersection','border']\n"
+    "[[set]]\nname='hidden'\nstyle='behind'\nqi=[1,255]\nclasses=['silhouette','crease','intersection','border']\n"
+    "[style.ink]\nwidth=1\n[style.behind]\nwidth=0.5\ndash=[4,3]\n";
+
+VectorDrawing drawing_of(ShadedScene& scene, const VectorOptions& given = {}, int threads = 1,
+                         bool cuts_dashes = false) {
+    scene.scene().names_lines = true;
+    const FoundLines found = scene.found(threads);
+    const Frame frame = scene.frame(scene.whole());
+    std::vector<std::string> notes;
+    VectorOptions options = given;
+    if (options.crop == PixelRect{}) options.crop = scene.whole();
+    VectorStats stats;
+    return vector_drawing_of(ink_lines(found, *frame.sheet, threads, notes, {true, cuts_dashes}), found, options,
+                             stats);
+}
+
+std::vector<glm::dvec2> flattened(const VectorDrawing& drawing, const VectorPath& path) {
+    std::vector<glm::dvec2> points = {path.start};
+    for (const PathStep& step : drawing.steps_of(path)) {
+        std::vector<PathStep> parts = {step};
+        if (step.kind == PathStep::Kind::arc) parts = cubics_of_arc(points.back(), step);
+        for (const PathStep& part : parts) {
+            const glm::dvec2 from = points.back();
+            for (int i = 1; i <= 24; ++i) {
+                const double t = i / 24.0, s = 1 - t;
+                points.push_back(part.kind == PathStep::Kind::line
+                                     ? glm::mix(from, part.to, t)
+                                     : from * (s * s * s) + part.a * (3 * s * s * t) + part.b * (3 * s * t * t) +
+                                           part.to * (t * t * t));
+            }
+        }
+    }
+    return points;
+}
+
+std::string scene_with(const std::string& camera, const std::string& objects) {
+    return "[camera]\n" + camera + "\n" + objects;
+}
+
+/// Every visible piece is covered by a path, and every path lies on pieces: within the tolerance, the sag of chords,
+/// and what cleaning may take.
+TEST(VectorDrawings, CoverAllPiecesAndNothingElse) {
+    for (int trial = 0; trial < 6; ++trial) {
+        Random random(static_cast<std::uint64_t>(trial));
+        std::vector<PolygonSoup> objects;
+        for (int i = 0; i < 4; ++i) {
+            PolygonSoup soup = i % 2 == 0 ? rough_sphere(random, 24, 0.4) : make_box({1.1, 0.7, 0.9});
+            const glm::dvec3 to = random.in_box(0.9);
+            for (glm::dvec3& p : soup.positions) p += to;
+            objects.push_back(std::move(soup));
+        }
+        Camera camera;
+        camera.to_world[3] = glm::dvec4(0, 0, 6, 1);
+        ShadedScene scene(std::move(objects), camera, kPlain, kWidth, kHeight);
+        const FoundLines found = scene.found();
+        const VectorDrawing drawing = drawing_of(scene);
+        for (const bool is_hidden : {false, true}) {
+            std::vector<std::pair<glm::dvec2, glm::dvec2>> pieces, parts;
+            for (const LineRun& run : found.runs.runs) {
+                for (const RunPiece& p : found.runs.pieces_of(run)) {
+                    if (p.piece.is_hidden() == is_hidden) pieces.emplace_back(p.piece.from, p.piece.to);
+                }
+            }
+            for (const VectorGroup& group : drawing.groups) {
+                // What is right behind visible lines is left out of hidden ones.
+                if (group.is_hidden && !is_hidden) continue;
+                for (const VectorPath& path : drawing.paths_of(group)) {
+                    const auto points = flattened(drawing, path);
+                    for (std::size_t i = 0; i + 1 < points.size(); ++i) parts.emplace_back(points[i], points[i + 1]);
+                }
+            }
+            ASSERT_GT(parts.size(), 50u);
+            const auto distance = [](glm::dvec2 p, const auto& lines) {
+                double least = 1e9;
+                for (const auto& [from, to] : lines) least = std::min(least, distance_to_part(p, from, to));
+                return least;
+            };
+            double missed = 0, false_px = 0;
+            for (const auto& [from, to] : pieces) missed = std::max(missed, distance(0.5 * (from + to), parts));
+            for (const VectorGroup& group : drawing.groups) {
+                if (group.is_hidden != is_hidden) continue;
+                for (const VectorPath& path : drawing.paths_of(group)) {
+                    for (const glm::dvec2 p : flattened(drawing, path))
+                        false_px = std::max(false_px, distance(p, pieces));
+                }
+            }
+            EXPECT_LT(missed, 0.56) << trial;  // a crumb is covered by ink of 1 pixel, not by a path
+            EXPECT_LT(false_px, 0.02 + 0.05 + 1.0 / 16 + 0.01) << trial;
+        }
+    }
+}
+
+TEST(VectorDrawings, ABoxHasClosedOutline) {
+    const std::string scene = scene_with("eye=[3,2,4]\ntarget=[0,0,0]\n", "[[object]]\nshape='box'\nname='a box'\n");
+    ShadedScene box(scene, sheet_of("'silhouette','crease'", "width=1"), kWidth, kHeight);
+    const VectorDrawing drawing = drawing_of(box);
+    ASSERT_EQ(drawing.groups.size(), 2u);
+    std::size_t closed = 0;
+    for (const VectorPath& path : drawing.paths) {
+        if (!path.is_closed) continue;
+        ++closed;
+        EXPECT_EQ(path.step_count, 6u);
+        EXPECT_EQ(drawing.steps_of(path).back().to, path.start);
+    }
+    EXPECT_EQ(closed, 1u);
+    // Three creases meet in a corner: two of them are one path at most.
+    EXPECT_LE(drawing.paths.size(), 4u);
+}
+
+TEST(VectorDrawings, PartsOfOneEdgeHaveOneName) {
+    // A wall in front of the middle of a long box.
+    const std::string scene = scene_with("eye=[0,1.5,8]\ntarget=[0,0,0]\n",
+                                         "[[object]]\nshape='box'\nname='long'\nsize=[6,0.5,0.5]\n"
+                                         "[[object]]\nshape='box'\nname='wall'\nsize=[1,3,0.2]\ntranslate=[0,0,2]\n");
+    ShadedScene shaded(scene, kPlain, kWidth, kHeight);
+    const VectorDrawing drawing = drawing_of(shaded);
+    std::set<std::uint64_t> visible, hidden;
+    for (const VectorGroup& group : drawing.groups) {
+        for (const VectorPath& path : drawing.paths_of(group)) {
+            if (path.object == 0 || drawing.objects[path.object - 1] != "long") continue;
+            for (const std::uint64_t edge : drawing.edges_of(path)) (group.is_hidden ? hidden : visible).insert(edge);
+        }
+    }
+    std::vector<std::uint64_t> both;
+    std::set_intersection(visible.begin(), visible.end(), hidden.begin(), hidden.end(), std::back_inserter(both));
+    EXPECT_GE(both.size(), 2u);
+}
+
+/// Names stay where the camera moves and objects come in another order.
+TEST(VectorDrawings, NamesOfEdgesAreStable) {
+    const std::string a = "[[object]]\nshape='box'\nname='a'\n",
+                      b = "[[object]]\nshape='box'\nname='b'\ntranslate=[2,0,0]\n";
+    const auto names = [&](const std::string& camera, const std::string& objects) {
+        ShadedScene scene(scene_with(camera, objects), sheet_of("'silhouette','crease'", "width=1"), kWidth, kHeight);
+        const VectorDrawing drawing = drawing_of(scene);
+        return std::set<std::uint64_t>(drawing.edges.begin(), drawing.edges.end());
+    };
+    const auto first = names("eye=[3,2,6]\ntarget=[1,0,0]\n", a + b);
+    EXPECT_EQ(first, names("eye=[3,2,6]\ntarget=[1,0,0]\n", b + a));
+    EXPECT_EQ(first, names("eye=[3.1,2.1,6]\ntarget=[1,0,0]\n", a + b));
+}
+
+TEST(VectorDrawings, ThreadsChangeNothing) {
+    for (const char* const style : {"technical", "pencil", "comic"}) {
+        SceneDescription description = read_scene_file(BURIN_SOURCE_FOLDER "/scenes/still_life.toml", {},
+                                                       BURIN_SOURCE_FOLDER "/styles/" + std::string(style) + ".toml");
+        ShadedScene scene(std::move(description), kWidth, kHeight);
+        const std::string one = svg_of(drawing_of(scene, {}, 1)), three = svg_of(drawing_of(scene, {}, 3));
+        EXPECT_GT(one.size(), 5000u);
+        EXPECT_TRUE(one == three) << style;
+    }
+}
+
+TEST(VectorDrawings, AnEmptyOneIsAValidFile) {
+    const std::string scene = scene_with("eye=[0,0,-5]\ntarget=[0,0,-9]\n", "[[object]]\nshape='box'\n");
+    ShadedScene shaded(scene, kPlain, kWidth, kHeight);
+    VectorDrawing drawing = drawing_of(shaded);
+    EXPECT_TRUE(drawing.paths.empty());
+    const std::string text = svg_of(drawing);
+    EXPECT_NE(text.find("<svg "), std::string::npos);
+    EXPECT_TRUE(text.ends_with("</svg>\n"));
+}
+
+TEST(VectorDrawings, NamesAreEscaped) {
+    const std::string scene =
+        scene_with("eye=[3,2,4]\ntarget=[0,0,0]\n", "[[object]]\nshape='box'\nname=\"<b> & \\\"🦊\\\" \\n\"\n");
+    ShadedScene shaded(scene, sheet_of("'silhouette','crease'", "width=1"), kWidth, kHeight);
+    const VectorDrawing by_class = drawing_of(shaded);
+    EXPECT_NE(svg_of(by_class).find("data-object=\"&lt;b&gt; &amp; &quot;🦊&quot; &#10;\""), std::string::npos);
+    VectorOptions options;
+    options.grouping = VectorGrouping::object;
+    EXPECT_NE(svg_of(drawing_of(shaded, options)).find("inkscape:label=\"&lt;b&gt; &amp; &quot;🦊&quot; &#10;\""),
+              std::string::npos);
+    EXPECT_EQ(svg_of(by_class, {false}).find("data-"), std::string::npos);
+}
+
+/// Layers of hidden lines by how many surfaces are in front.
+TEST(VectorDrawings, HiddenLinesHaveLayersByInvisibility) {
+    const std::string scene = scene_with("eye=[0.4,0.3,8]\ntarget=[0,0,0]\n",
+                                         "[[object]]\nshape='box'\nname='far'\ntranslate=[0,0,-3]\n"
+                                         "[[object]]\nshape='plane'\nname='near'\nsize=[4,4]\nrotate=[90,0,0]\n");
+    ShadedScene shaded(scene, kPlain, kWidth, kHeight);
+    VectorOptions options;
+    options.grouping = VectorGrouping::invisibility;
+    const std::string text = svg_of(drawing_of(shaded, options));
+    const std::size_t two = text.find("\"3 hidden 2\""), one = text.find("\"2 hidden 1\""),
+                      none = text.find("\"1 visible\"");
+    EXPECT_NE(two, std::string::npos);
+    EXPECT_LT(two, one);
+    EXPECT_LT(one, none);
+}
+
+/// The look of [lines] as a sheet finds and draws what [lines] does.
+TEST(PlainSheet, DrawsWhatLinesSay) {
+    for (const char* const name : {"still_life", "crossing"}) {
+        const std::string path = BURIN_SOURCE_FOLDER "/scenes/" + std::string(name) + ".toml";
+        const std::vector<Override> looks = {{"lines.hidden.style", "\"solid\""},
+                                             {"lines.hidden.width", "2"},
+                                             {"lines.colors.crease", "\"#ff0000\""},
+                                             {"lines.width", "1.5"}};
+        ShadedScene plain(read_scene_file(path, looks), kWidth, kHeight);
+        ShadedScene styled(read_scene_file(path, looks), kWidth, kHeight);
+        styled.scene().sheet = std::make_shared<const StyleSheet>(plain_sheet(styled.scene().lines));
+        Frame frame = plain.frame(plain.whole());
+        frame.needs.whole_picture = true;  // sheets look for edges that another one covers, too
+        const Image a = plain.draw(frame), b = styled.draw();
+        double off = 0, ink = 0;
+        for (int y = 0; y < kHeight; ++y) {
+            for (int x = 0; x < kWidth; ++x) {
+                for (const char* const channel : {"lines.R", "lines.A", "lines_hidden.A"})
+                    off += std::abs(value_at(a, channel, x, y) - value_at(b, channel, x, y));
+                ink += value_at(a, "lines.A", x, y);
+            }
+        }
+        EXPECT_LT(off, 0.002 * ink) << name;
+    }
+}
+
+}  // namespace
+}  // namespace burin
