@@ -10,15 +10,15 @@
 namespace burin {
 namespace {
 
-constexpr double kStepPx = 0.25, kExactPx = 1.0 / 128;
+constexpr double kHaloStepPx = 0.25, kExactPx = 1.0 / 128;
 
 /// A place on a stroke: between this point and the next one.
-struct Place {
+struct HaloPlace {
     std::size_t point = 0;
     double share = 0;
 };
 
-InkPoint point_at(std::span<const InkPoint> points, Place place) {
+InkPoint point_at(std::span<const InkPoint> points, HaloPlace place) {
     const InkPoint& from = points[place.point];
     if (place.share <= 0) return from;
     const InkPoint& to = points[place.point + 1];
@@ -40,7 +40,7 @@ class HaloCutter {
         : lines_(lines),
           projection_(projection),
           reach_px_(most_reach_px(lines)),
-          step_px_(std::max(kStepPx, reach_px_ / 64)),
+          step_px_(std::max(kHaloStepPx, reach_px_ / 64)),
           grid_(picture, reach_px_) {
         for (std::uint32_t s = 0; s < lines.strokes.size(); ++s) {
             const InkStroke& stroke = lines.strokes[s];
@@ -112,14 +112,14 @@ class HaloCutter {
         const InkStroke& stroke = lines_.strokes[number];
         const std::span<const InkPoint> points = lines_.points_of(stroke);
         bool was_erased = is_erased(stroke, points.front());
-        Place begin, before;
+        HaloPlace begin, before;
         bool is_cut = was_erased;
         double at_px = 0, begin_px = 0;
         for (std::size_t i = 0; i + 1 < points.size(); ++i) {
             const double length = glm::distance(points[i].place, points[i + 1].place);
             const int steps = std::max(1, static_cast<int>(std::ceil(std::min(length / step_px_, 1e6))));
             for (int k = 1; k <= steps; ++k) {
-                const Place place{i, static_cast<double>(k) / steps};
+                const HaloPlace place{i, static_cast<double>(k) / steps};
                 const bool is = is_erased(stroke, point_at(points, place));
                 if (is != was_erased) {
                     // The border between the two, by halving.
@@ -128,7 +128,7 @@ class HaloCutter {
                         const double middle = 0.5 * (low + high);
                         (is_erased(stroke, point_at(points, {i, middle})) == was_erased ? low : high) = middle;
                     }
-                    const Place border{i, is ? low : high};
+                    const HaloPlace border{i, is ? low : high};
                     if (is) {
                         add(number, begin, border, begin_px, out);
                     } else {
@@ -142,11 +142,11 @@ class HaloCutter {
             }
             at_px += length;
         }
-        const Place end{points.size() - 2, 1};
+        const HaloPlace end{points.size() - 2, 1};
         if (!was_erased) add(number, begin, end, begin_px, out, is_cut);
     }
 
-    void add(std::size_t number, Place from, Place to, double at_px, InkedLines& out, bool is_cut = true) const {
+    void add(std::size_t number, HaloPlace from, HaloPlace to, double at_px, InkedLines& out, bool is_cut = true) const {
         InkStroke stroke = lines_.strokes[number];
         const std::span<const InkPoint> points = lines_.points_of(stroke);
         stroke.first_point = out.points.size();

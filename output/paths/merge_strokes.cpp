@@ -9,7 +9,7 @@
 namespace burin {
 namespace {
 
-constexpr double kGapPx = 0.5, kClosedPx = 1.0 / 16;
+constexpr double kMergedGapPx = 0.5, kClosedPx = 1.0 / 16;
 constexpr float kSameInk = 1.0f / 32;
 
 bool are_alike(const InkPoint& a, const InkPoint& b) {
@@ -29,7 +29,7 @@ bool goes_on(const InkedLines& lines, std::size_t i) {
     if (x.object != y.object || x.invisibility != y.invisibility || !x.dash_px.empty() || !y.dash_px.empty())
         return false;
     const InkPoint &end = lines.points_of(a).back(), &begin = lines.points_of(b).front();
-    return glm::distance(end.place, begin.place) <= kGapPx && are_alike(end, begin);
+    return glm::distance(end.place, begin.place) <= kMergedGapPx && are_alike(end, begin);
 }
 
 /// Whether strokes have one width all along.

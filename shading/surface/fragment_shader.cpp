@@ -8,7 +8,7 @@
 namespace burin {
 namespace {
 
-using V = SurfaceVariable;
+using S = SurfaceVariable;
 
 glm::dvec3 unit(const glm::dvec3& v) { return v / std::max(glm::length(v), 1e-300); }
 
@@ -30,7 +30,7 @@ FragmentShader::FragmentShader(const ShadedSurfaces& surfaces)
     const bool is_on_object = look_.shading == SurfaceShading::hatch && look_.hatch_space == HatchSpace::object;
     const bool reads_light = look_.shading == SurfaceShading::toon || look_.shading == SurfaceShading::gooch;
     SurfaceVariables of_pixel;
-    for (const V v : {V::x, V::y, V::C, V::object, V::material}) of_pixel.set(number_of(v));
+    for (const S v : {S::x, S::y, S::C, S::object, S::material}) of_pixel.set(number_of(v));
     needs_places_ = look_.needs_lit || reads_light || is_on_object || (look_.variables & ~of_pixel).any();
     needs_changes_ = look_.shading == SurfaceShading::toon || is_on_object;
     columns_.resize(look_.inputs.size() * kBlock);
@@ -124,40 +124,40 @@ void FragmentShader::fill_column(const SurfaceInput& input, std::span<const Surf
     };
     const glm::dmat4& to_world = surfaces_.camera_to_world();
     switch (input.variable) {
-        case V::x:
+        case S::x:
             return each([&](std::size_t i) { return fragments[i].place.x; });
-        case V::y:
+        case S::y:
             return each([&](std::size_t i) { return fragments[i].place.y; });
-        case V::depth:
+        case S::depth:
             return each(depth);
-        case V::distance:
+        case S::distance:
             return each(
                 [&](std::size_t i) { return projection_.orthographic ? depth(i) : glm::length(places_[i].position); });
-        case V::px_size:
+        case S::px_size:
             return each([&](std::size_t i) { return projection_.pixel_size(depth(i)); });
-        case V::P:
+        case S::P:
             return each([&](std::size_t i) { return in_row(to_world, places_[i].position) + to_world[3][c]; });
-        case V::PO:
+        case S::PO:
             return each([&](std::size_t i) {
                 const glm::dmat4& to_object = surfaces_.to_object(triangle_of(i).id().instance);
                 return in_row(to_object, places_[i].position) + to_object[3][c];
             });
-        case V::N:
+        case S::N:
             return each([&](std::size_t i) { return in_row(to_world, places_[i].normal); });
-        case V::facing:
+        case S::facing:
             return each([&](std::size_t i) { return std::clamp(glm::dot(places_[i].normal, to_eye(i)), 0.0, 1.0); });
-        case V::light:
+        case S::light:
             return each([&](std::size_t i) {
                 const ViewLight& key = surfaces_.lights().front();
                 return std::clamp(glm::dot(places_[i].normal, key.towards(places_[i].position)), 0.0, 1.0);
             });
-        case V::lit:
+        case S::lit:
             return each([&](std::size_t i) { return lit_[i]; });
-        case V::C:
+        case S::C:
             return each([&](std::size_t i) { return triangle_of(i).color()[c]; });
-        case V::object:
+        case S::object:
             return each([&](std::size_t i) { return triangle_of(i).object_id(); });
-        case V::material:
+        case S::material:
             return each([&](std::size_t i) { return triangle_of(i).material_id(); });
     }
 }
