@@ -222,8 +222,12 @@ class StrokeExplainer {
         text += "\n    color " + std::string(color) + text_of(style.color);
         if (ink[0].offset_px != 0) text += "\n    offset " + number(ink[0].offset_px) + " px" + text_of(style.offset);
         SampleColumns read;
-        columns_.fill({&sample, 1}, compiled.variables, variant, read);
+        columns_.fill({&sample, 1}, compiled.variables, variant, read, compiled.attributes);
         std::string variables;
+        for (std::size_t i = 0; i < compiled.attributes.size(); ++i) {
+            variables += (variables.empty() ? "" : ", ") + ("attr(\"" + printable(compiled.attributes[i], 200)) +
+                         "\") " + number(read.of_attribute(i)[0]);
+        }
         for (const VariableRow& row : variable_table()) {
             for (std::size_t k = 0; k < component_count(row.type); ++k) {
                 if (!compiled.variables.has(row.variable, k)) continue;

@@ -120,6 +120,7 @@ bool is_zero(const StyleValue& value) { return value.kind == Kind::number && val
 VariableSet variables_of(const ExpressionProgram& program) {
     VariableSet set;
     for (const ExpressionInput& input : program.inputs()) {
+        if (input.is_attribute) continue;
         if (const auto variable = variable_named(input.name)) set.add(*variable, input.component);
     }
     return set;
@@ -178,6 +179,9 @@ CompiledStyle compile_style(const SheetStyle& style, const ExpressionSymbols& sy
 
     result.variables = variables_of(result.ink);
     result.variables |= variables_of(result.chain);
+    for (const ExpressionInput& input : result.ink.inputs()) {
+        if (input.is_attribute) result.attributes.push_back(input.name);
+    }
     if (result.has_wobble && result.wobble_anchor == WobbleAnchor::object) {
         result.variables.add(Variable::PO);
         result.variables.add(Variable::px_size);
