@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "base/error.h"
 #include "base/interrupt.h"
 #include "mesh/gltf_marks.h"
 
@@ -42,7 +43,10 @@ class SurfaceBuilder {
             const JsonPlace attributes = primitive.place.at("attributes");
             for (const auto& [name, accessor] : attributes.json().items()) {
                 const bool is_named = name.starts_with('_');
-                if (is_named && buffers_.type_of(attributes.at(name.c_str())) != "SCALAR") continue;
+                std::string type;
+                const bool is_there =
+                    !is_named || is_read([&, &name = name] { type = buffers_.type_of(attributes.at(name.c_str())); });
+                if (is_named && (!is_there || type != "SCALAR")) continue;
                 const auto is_known = [&name = name](const std::vector<std::string>& names) {
                     return std::find(names.begin(), names.end(), name) != names.end();
                 };
@@ -58,27 +62,48 @@ class SurfaceBuilder {
         }
     }
 
+    /// Where all attributes are kept, because somebody may read them later, what is wrong with one is only noted.
+    template <typename Read>
+    bool is_read(const Read& read) {
+        try {
+            read();
+            return true;
+        } catch (const InputError& error) {
+            if (!attributes_.all_named) throw;
+            surface_.soup.notes.push_back(std::string("values of vertices left out: ") + error.what());
+            return false;
+        }
+    }
+    DracoGeometry decode(const GltfPrimitive& primitive) {
+        DracoGeometry geometry;
+        if (!is_read([&] { geometry = decode_draco(primitive, buffers_, attributes_); }))
+            geometry = decode_draco(primitive, buffers_, {});
+        return geometry;
+    }
+
     /// The values of the attributes that the vertices of a primitive have.
     void add_values(const GltfPrimitive& primitive, GltfVertices& vertices) {
         vertices.first_rows.assign(layer_names_.size(), AttributeLayer::kNoRow);
         if (vertices.elements == 0) return;
         for (std::size_t i = 0; i < layer_names_.size(); ++i) {
-            const char* const name = layer_names_[i].c_str();
-            const JsonPlace attributes = primitive.place.at("attributes");
-            if (!attributes.has(name)) continue;
-            AttributeLayer& layer = surface_.soup.attributes[i];
-            const bool has_alpha =
-                layer.kind == AttributeKind::color && buffers_.type_of(attributes.at(name)) == "VEC4";
-            static constexpr const char* kTypes[] = {"VEC2", "VEC3", "SCALAR"};
-            const GltfAccessor accessor =
-                vertices.attribute(name, has_alpha ? "VEC4" : kTypes[static_cast<std::size_t>(layer.kind)], buffers_);
-            vertices.first_rows[i] = static_cast<std::uint32_t>(layer.row_count());
-            std::array<float, 3> row{};
-            for (std::uint64_t v = 0; v < vertices.size(); ++v) {
-                for (std::size_t k = 0; k < layer.components(); ++k)
-                    row[k] = static_cast<float>(accessor.number(vertices.element_of(v), static_cast<int>(k)));
-                layer.add_row(std::span(row).first(layer.components()));
-            }
+            if (primitive.place.at("attributes").has(layer_names_[i].c_str()))
+                is_read([&] { add_values_of(i, primitive, vertices); });
+        }
+    }
+    void add_values_of(std::size_t i, const GltfPrimitive& primitive, GltfVertices& vertices) {
+        const char* const name = layer_names_[i].c_str();
+        const JsonPlace attributes = primitive.place.at("attributes");
+        AttributeLayer& layer = surface_.soup.attributes[i];
+        const bool has_alpha = layer.kind == AttributeKind::color && buffers_.type_of(attributes.at(name)) == "VEC4";
+        static constexpr const char* kTypes[] = {"VEC2", "VEC3", "SCALAR"};
+        const GltfAccessor accessor =
+            vertices.attribute(name, has_alpha ? "VEC4" : kTypes[static_cast<std::size_t>(layer.kind)], buffers_);
+        vertices.first_rows[i] = static_cast<std::uint32_t>(layer.row_count());
+        std::array<float, 3> row{};
+        for (std::uint64_t v = 0; v < vertices.size(); ++v) {
+            for (std::size_t k = 0; k < layer.components(); ++k)
+                row[k] = static_cast<float>(accessor.number(vertices.element_of(v), static_cast<int>(k)));
+            layer.add_row(std::span(row).first(layer.components()));
         }
     }
 
@@ -106,7 +131,7 @@ class SurfaceBuilder {
         vertices.first = positions.size();
         vertices.elements = primitive.vertices;
         if (primitive.is_draco()) {
-            vertices.draco = std::make_shared<const DracoGeometry>(decode_draco(primitive, buffers_, attributes_));
+            vertices.draco = std::make_shared<const DracoGeometry>(decode(primitive));
         }
         if (uses_few_vertices(plan_, primitive)) {
             vertices.used = used_elements(primitive.vertex_group);

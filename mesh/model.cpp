@@ -63,6 +63,10 @@ Model model_of(const std::string& path, GltfScene scene, const MeshOptions& opti
     for (PolygonSoup& soup : scene.meshes) {
         has_attributes = has_attributes || !soup.attributes.empty();
         for (std::string& name : soup.attribute_names) add_name(std::move(name));
+        for (const std::string& note : soup.notes) {
+            if (std::find(scene.notes.begin(), scene.notes.end(), note) == scene.notes.end())
+                scene.notes.push_back(note);
+        }
     }
     note_subdivision(has_attributes, options, scene.notes);
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {

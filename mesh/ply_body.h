@@ -150,6 +150,13 @@ class PlyBodyReader {
         return value;
     }
 
+    /// A value that may be anything where nobody reads it: a word that is no number counts as 0.
+    double number_or_0(const PlyProperty& property) {
+        double value = 0;
+        if (!values_.number(property.type, value) && !values_.skip(property.type, 1)) fail_value();
+        return value;
+    }
+
     /// The length of a list that starts here; at most what the file has room for.
     std::uint64_t list_length(const PlyProperty& property) {
         std::int64_t length = 0;
@@ -192,7 +199,7 @@ class PlyBodyReader {
             glm::dvec3 position;
             for (std::size_t i = 0; i < axis_of.size(); ++i) {
                 if (has_attributes && attributes.has(i)) {
-                    attributes.set(i, number(element.properties[i]));
+                    attributes.set(i, number_or_0(element.properties[i]));
                 } else if (axis_of[i] < 0) {
                     skip_property(element.properties[i]);
                 } else {
@@ -338,7 +345,7 @@ class PlyBodyReader {
 
     void read_corner_uv(const PlyProperty& property) {
         const std::uint64_t length = list_length(property);
-        for (std::uint64_t k = 0; k < length; ++k) corner_uv_.add(number(property));
+        for (std::uint64_t k = 0; k < length; ++k) corner_uv_.add(number_or_0(property));
     }
 
     void read_strips(const PlyElement& element) {

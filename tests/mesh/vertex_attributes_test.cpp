@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 
+#include "base/error.h"
 #include "mesh/build_meshes.h"
 #include "mesh/model.h"
 #include "mesh/stitch_cracks.h"
@@ -187,6 +188,34 @@ TEST_F(Attributes, OfAGltfFile) {
                          .meshes.at(0);
     EXPECT_EQ(two.triangles.size(), 2u);
     expect_values(two, Kind::uv, 0, [](glm::dvec3 p, auto) { return std::vector{255 * p.x, 255 * p.y}; });
+}
+
+/// Who keeps all, as somebody may read it later, gets no error for what was read without before.
+TEST_F(Attributes, ThatAreWrongAreErrorsForWhoNamesThemAlone) {
+    test::GltfAccessors accessors;
+    const int positions = accessors.add_positions({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
+    const int indices = accessors.add_indices({0, 1, 2, 0, 2, 3});
+    for (const std::string& uv : {std::to_string(positions), std::string("99"), std::to_string(indices)}) {
+        const std::string text =
+            test::gltf_of(accessors, R"({"attributes": {"POSITION": 0, "TEXCOORD_0": )" + uv + R"(, "_A": )" + uv +
+                                         R"(}, "indices": )" + std::to_string(indices) + "}")
+                .json();
+        EXPECT_TRUE(read("a.gltf", text, {}).notes.empty());
+        const Model kept = read("a.gltf", text);
+        EXPECT_TRUE(kept.meshes.at(0).attributes.empty());
+        EXPECT_FALSE(kept.notes.empty());
+        AttributeWish named;
+        named.uv = true;
+        EXPECT_THROW(read("a.gltf", text, named), InputError);
+    }
+    const Mesh mesh = read("a.ply",
+                           "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                           "property float z\nproperty float heat\nelement face 1\n"
+                           "property list uchar int vertex_indices\nend_header\n"
+                           "0 0 0 hot\n1 0 0 2\n0 1 0 3\n3 0 1 2\n")
+                          .meshes.at(0);
+    EXPECT_EQ(value_at(mesh, Kind::named, 0, 0, "heat"), std::vector<float>{0});
+    EXPECT_EQ(value_at(mesh, Kind::named, 0, 1, "heat"), std::vector<float>{2});
 }
 
 /// Polygons of many kinds, each with values of its own at vertices that they share, among them polygons that are
