@@ -49,7 +49,8 @@ std::vector<float> value_at(const Mesh& mesh, Kind kind, std::uint32_t triangle,
 template <typename Value>
 void expect_values(const Mesh& mesh, Kind kind, double tolerance, const Value& value, const std::string& name = {}) {
     ASSERT_FALSE(mesh.triangles.empty());
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const std::uint32_t step = mesh.triangles.size() > 10000 ? 31 : 1;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); t += step) {
         for (std::size_t k = 0; k < 3; ++k) {
             const std::vector<float> found = value_at(mesh, kind, t, k, name);
             const std::vector<double> expected = value(mesh.position(mesh.triangles[t][k]), t);
