@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <tuple>
+#include <utility>
 
 #include "base/interrupt.h"
 #include "base/parallel.h"
@@ -123,6 +126,28 @@ Turn turned_into(const PolygonTurn& turn, const glm::dvec3& normal) {
     return {part(0, 0), part(0, 1), part(0, 2), part(1, 1), part(1, 2), part(2, 2)};
 }
 
+/// The normal at a vertex with polygons all around that is exact on a ball, whatever their shapes (Max 1999): means by
+/// angles lean towards the side with more polygons, as beside the pole of a globe. `given`: the mean by angles, which
+/// stays where there is no other.
+glm::dvec3 normal_around(const Mesh& mesh, std::span<const HalfEdge> corners, const glm::dvec3& given,
+                         std::vector<glm::dvec3>& parts) {
+    parts.clear();
+    for (const HalfEdge h : corners) {
+        const auto place = [&](std::size_t k) { return mesh.local_position(mesh.triangles[h / 3][(h % 3 + k) % 3]); };
+        const glm::dvec3 a = place(1) - place(0), b = place(2) - place(0);
+        const glm::dvec3 part = glm::cross(a / glm::dot(a, a), b / glm::dot(b, b));
+        parts.push_back(glm::dot(part, given) < 0 ? -part : part);
+    }
+    std::sort(parts.begin(), parts.end(), [](const glm::dvec3& a, const glm::dvec3& b) {
+        return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+    });
+    glm::dvec3 sum(0.0);
+    for (const glm::dvec3& part : parts) sum += part;
+    const glm::dvec3 normal = sum / glm::length(sum);
+    constexpr double kLeastCosine = 0.9;
+    return glm::dot(normal, given) > kLeastCosine ? normal : given;  // NaN is no normal either
+}
+
 /// Gives a vertex the mean of matrices by their areas. Sums depend on their order, and that must not depend on the
 /// triangles'.
 void set_mean(std::vector<std::pair<double, Turn>>& parts, VertexCurvature& vertex) {
@@ -142,7 +167,7 @@ void set_mean(std::vector<std::pair<double, Turn>>& parts, VertexCurvature& vert
 }  // namespace
 
 MeshCurvature make_curvature(const Mesh& mesh, double cos_crease_angle, int threads) {
-    const SmoothMesh smooth = make_smooth(mesh, cos_crease_angle);
+    SmoothMesh smooth = make_smooth(mesh, cos_crease_angle);
     constexpr std::size_t kChunk = 4096;
     const auto in_chunks = [threads](std::size_t count, const auto& work) {
         parallel_for((count + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
@@ -150,6 +175,34 @@ MeshCurvature make_curvature(const Mesh& mesh, double cos_crease_angle, int thre
             work(chunk * kChunk, std::min(count, (chunk + 1) * kChunk));
         });
     };
+    MeshCurvature result;
+    constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+    result.corners.assign(3 * mesh.triangles.size(), kNone);
+    std::vector<HalfEdge> first_corners;  // of vertices
+    for (HalfEdge c = 0; c < result.corners.size(); ++c) {
+        if (result.corners[c] != kNone) continue;
+        visit_smooth_corners(mesh, smooth, c,
+                             [&](HalfEdge h) { result.corners[h] = static_cast<std::uint32_t>(first_corners.size()); });
+        first_corners.push_back(c);
+    }
+    // All corners of a vertex are in one chunk.
+    in_chunks(first_corners.size(), [&](std::size_t begin, std::size_t end) {
+        std::vector<HalfEdge> corners;
+        std::vector<glm::dvec3> parts;
+        for (std::size_t i = begin; i < end; ++i) {
+            corners.clear();
+            bool is_closed = true;
+            visit_smooth_corners(mesh, smooth, first_corners[i], [&](HalfEdge h) {
+                corners.push_back(h);
+                is_closed = is_closed && !smooth.is_sharp(h) && !smooth.is_sharp(h - h % 3 + (h % 3 + 2) % 3);
+            });
+            const glm::vec3 given = smooth.normals[first_corners[i]];
+            if (!is_closed || given == glm::vec3(0.0f)) continue;
+            const glm::vec3 normal(normal_around(mesh, corners, glm::dvec3(given), parts));
+            for (const HalfEdge h : corners) smooth.normals[h] = normal;
+        }
+    });
+
     std::vector<std::uint32_t> first_triangles;  // of polygons, and the end
     std::vector<std::uint32_t> polygons;         // of triangles
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -163,16 +216,6 @@ MeshCurvature make_curvature(const Mesh& mesh, double cos_crease_angle, int thre
             turns[i] = turn_of(mesh, smooth, first_triangles[i], first_triangles[i + 1]);
     });
 
-    MeshCurvature result;
-    constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-    result.corners.assign(3 * mesh.triangles.size(), kNone);
-    std::vector<HalfEdge> first_corners;  // of vertices
-    for (HalfEdge c = 0; c < result.corners.size(); ++c) {
-        if (result.corners[c] != kNone) continue;
-        visit_smooth_corners(mesh, smooth, c,
-                             [&](HalfEdge h) { result.corners[h] = static_cast<std::uint32_t>(first_corners.size()); });
-        first_corners.push_back(c);
-    }
     result.vertices.resize(first_corners.size());
     in_chunks(first_corners.size(), [&](std::size_t begin, std::size_t end) {
         std::vector<std::pair<double, Turn>> parts;  // area, matrix

@@ -38,7 +38,8 @@ struct MeshCurvature {
 /// Fits, on each polygon, the symmetric matrix that best gives the differences of the normals along its edges
 /// (Rusinkiewicz 2004, for triangles), turns it into the tangent planes at its corners, and takes the mean of those
 /// around a vertex that are not beyond a crease, weighted by the area that is nearest to the vertex. Normals are those
-/// of make_smooth(). Never NaN; the number of threads and the order of triangles do not matter.
+/// of make_smooth(), made exact for balls where polygons are all around a vertex. Never NaN; the number of threads and
+/// the order of triangles do not matter.
 MeshCurvature make_curvature(const Mesh& mesh, double cos_crease_angle, int threads);
 
 /// The curvatures of a scene's meshes, which are made when they are first asked for and serve all views.

@@ -72,7 +72,7 @@ TEST(MeshCurvature, OfATorusIsThatOfItsTubeWithinThreeInAThousand) {
             EXPECT_NEAR(along(curvature, t, weights, -normal, tube) * kTube, -1, 0.01)
                 << "from inside it bends towards the eye";
         });
-        EXPECT_LT(worst, is_cut ? 0.003 : 0.0032);
+        EXPECT_LT(worst, 0.003);
         EXPECT_LT(worst_around, 0.04);
     }
 }
@@ -100,8 +100,7 @@ TEST(MeshCurvature, OfABallIsTheSameInAllDirections) {
     Random random(1);
     each_corner(mesh, [&](std::uint32_t t, glm::dvec3 p, const std::array<double, 3>& weights) {
         const glm::dvec3 normal = p / 2.0, way = glm::normalize(glm::cross(normal, random.direction()));
-        EXPECT_NEAR(along(curvature, t, weights, normal, way), 0.5, std::abs(p.y) < 1.9 ? 0.0025 : 0.01)
-            << p.x << ' ' << p.y << ' ' << p.z;
+        EXPECT_NEAR(along(curvature, t, weights, normal, way), 0.5, 2e-4) << p.x << ' ' << p.y << ' ' << p.z;
     });
 }
 
@@ -124,7 +123,7 @@ TEST(MeshCurvature, OfAnEllipsoidIsThatOfItsEquation) {
         double most = 0;
         each_corner(mesh, [&](std::uint32_t t, glm::dvec3 p, const std::array<double, 3>& weights) {
             const glm::dvec3 on_ball = p / unscaled, gradient = on_ball / size, normal = glm::normalize(gradient);
-            if (std::abs(on_ball.y) > 0.99) return;
+            if (std::abs(on_ball.y) > 0.95) return;
             const glm::dvec3 way = glm::normalize(glm::cross(normal, random.direction()));
             const double expected = glm::dot(way, way / (size * size)) / glm::length(gradient);
             const double found = along(curvature, t, weights, to_view * normal, to_view * way, back);
@@ -132,7 +131,7 @@ TEST(MeshCurvature, OfAnEllipsoidIsThatOfItsEquation) {
         });
         return most;
     };
-    EXPECT_LT(worst(ball, of_ball, glm::dvec3(1.0), turn, from_view), 0.005);
+    EXPECT_LT(worst(ball, of_ball, glm::dvec3(1.0), turn, from_view), 0.001);
     EXPECT_LT(worst(scaled, of_scaled, size, glm::dmat3(1.0), glm::dmat3(1.0)), 0.03);
 }
 
