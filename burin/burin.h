@@ -104,6 +104,11 @@ typedef struct burin_mesh {
     const int32_t* marked_edges;      /**< pairs of points: edges of class `mark`, lines by themselves if no polygon has
                                            them; NULL: none */
     uint64_t marked_edge_count;       /**< how many pairs */
+    const float* corner_uv;    /**< two texture coordinates of each corner, u and v of style sheets; NULL: none */
+    const float* point_colors; /**< red green blue of each point, linear: Cv of style sheets; NULL: none */
+    const char* const* attribute_names;   /**< of further numbers of points: attr("name") of style sheets */
+    const float* const* point_attributes; /**< for each name an array with a number for each point */
+    uint64_t attribute_count;             /**< how many names, 64 at most */
 } burin_mesh;
 
 /** Adds a mesh, for objects to show. Returns its number. */

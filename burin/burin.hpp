@@ -72,6 +72,10 @@ struct Mesh {
     std::span<const std::int32_t> polygon_objects{};    ///< empty: all are one
     std::vector<std::string> object_names{};            ///< of the parts that polygon_objects numbers
     std::span<const std::int32_t> marked_edges{};       ///< two points each
+    std::span<const float> corner_uv{};                 ///< two for each corner; empty: none
+    std::span<const float> point_colors{};              ///< red green blue of each point, linear; empty: none
+    /// A name, and a number for each point.
+    std::vector<std::pair<std::string, std::span<const float>>> attributes{};
 };
 
 /// How a scene is seen; see burin_view. Without anything: as the scene says.
@@ -301,8 +305,17 @@ class Scene {
                 throw Error(BURIN_BAD_ARGUMENT, "mesh: materials and objects are given for each polygon or for none");
             }
         }
-        std::vector<const char*> names;
+        std::vector<const char*> names, attribute_names;
         for (const std::string& name : mesh.object_names) names.push_back(name.c_str());
+        std::vector<const float*> attributes;
+        bool fits = (mesh.corner_uv.empty() || mesh.corner_uv.size() == 2 * mesh.corners.size()) &&
+                    (mesh.point_colors.empty() || mesh.point_colors.size() == mesh.points.size());
+        for (const auto& [name, numbers] : mesh.attributes) {
+            fits = fits && numbers.size() == mesh.points.size() / 3;
+            attribute_names.push_back(name.c_str());
+            attributes.push_back(numbers.data());
+        }
+        if (!fits) throw Error(BURIN_BAD_ARGUMENT, "mesh: attributes are given for each corner or point, or for none");
         burin_mesh m = {};
         m.size = sizeof m;
         m.name = mesh.name.c_str();
@@ -323,6 +336,11 @@ class Scene {
         m.object_names = names.empty() ? nullptr : names.data();
         m.marked_edges = mesh.marked_edges.data();
         m.marked_edge_count = mesh.marked_edges.size() / 2;
+        m.corner_uv = mesh.corner_uv.empty() ? nullptr : mesh.corner_uv.data();
+        m.point_colors = mesh.point_colors.empty() ? nullptr : mesh.point_colors.data();
+        m.attribute_names = attribute_names.data();
+        m.point_attributes = attributes.data();
+        m.attribute_count = attribute_names.size();
         return checked(burin_add_mesh(get(), &m));
     }
     void remove_mesh(int mesh) { checked(burin_remove_mesh(get(), mesh)); }

@@ -2,7 +2,10 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "base/huge_pages.h"
@@ -140,6 +143,35 @@ void copy_parts(const burin_mesh& mesh, std::uint64_t polygons, PolygonSoup& sou
     }
 }
 
+/// A layer with a row for each element of an array. What is not finite counts as 0, as in files.
+AttributeLayer layer_of(AttributeKind kind, std::string name, const float* values, std::uint64_t rows) {
+    AttributeLayer layer{kind, std::move(name), {}, {}};
+    layer.add_row({values, static_cast<std::size_t>(rows * layer.components())});
+    return layer;
+}
+
+void copy_attributes(const burin_mesh& mesh, PolygonSoup& soup) {
+    if (mesh.corner_uv != nullptr && mesh.corner_count > 0) {
+        soup.attributes.push_back(layer_of(AttributeKind::uv, {}, mesh.corner_uv, mesh.corner_count));
+        std::vector<std::uint32_t>& rows = soup.attributes.back().rows;
+        rows.resize(soup.corners.size());
+        std::iota(rows.begin(), rows.end(), 0u);
+    }
+    if (mesh.point_colors != nullptr)
+        soup.attributes.push_back(layer_of(AttributeKind::color, {}, mesh.point_colors, mesh.point_count));
+    const auto names =
+        array_of(mesh.attribute_names, mesh.attribute_count, kMostNamedAttributes, 1, "names of attributes");
+    const auto arrays =
+        array_of(mesh.point_attributes, mesh.attribute_count, kMostNamedAttributes, 1, "arrays of attributes");
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const std::string name = text_or_empty(names[i]);
+        if (name.empty()) throw UsageError("mesh: attribute " + std::to_string(i) + " has no name");
+        if (arrays[i] == nullptr && mesh.point_count > 0)
+            throw UsageError("mesh: the array of attribute '" + printable(name, 200) + "' is NULL");
+        soup.attributes.push_back(layer_of(AttributeKind::named, name, arrays[i], mesh.point_count));
+    }
+}
+
 }  // namespace
 
 MeshInput checked_mesh(const burin_mesh& mesh, std::uint32_t material_count, std::uint32_t default_material) {
@@ -156,6 +188,7 @@ MeshInput checked_mesh(const burin_mesh& mesh, std::uint32_t material_count, std
     for (std::size_t i = 0; i < ends.size(); i += 2) soup.marked_edges.push_back({ends[i], ends[i + 1]});
     copy_materials(mesh, polygons, material_count, default_material, result);
     copy_parts(mesh, polygons, soup);
+    copy_attributes(mesh, soup);
     return result;
 }
 

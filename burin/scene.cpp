@@ -76,7 +76,8 @@ int adopt(burin_scene& scene, Scene loaded, SceneSettings settings) {
 }
 
 int load_description(burin_scene& scene, SceneDescription description, SceneSettings settings) {
-    return adopt(scene, load_scene(std::move(description), {.threads = 0}), std::move(settings));
+    return adopt(scene, load_scene(std::move(description), {.threads = 0, .keeps_attributes = true}),
+                 std::move(settings));
 }
 
 }  // namespace

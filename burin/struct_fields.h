@@ -65,7 +65,12 @@ struct Fields<burin_mesh> {
                                           BURIN_FIELD(burin_mesh, object_count),
                                           BURIN_FIELD(burin_mesh, object_names),
                                           BURIN_FIELD(burin_mesh, marked_edges),
-                                          BURIN_FIELD(burin_mesh, marked_edge_count)};
+                                          BURIN_FIELD(burin_mesh, marked_edge_count),
+                                          BURIN_FIELD(burin_mesh, corner_uv),
+                                          BURIN_FIELD(burin_mesh, point_colors),
+                                          BURIN_FIELD(burin_mesh, attribute_names),
+                                          BURIN_FIELD(burin_mesh, point_attributes),
+                                          BURIN_FIELD(burin_mesh, attribute_count)};
 };
 static_assert(names_all_fields<burin_mesh>());
 

@@ -17,7 +17,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (kKind == "mtl")
         path = folder.write("model.obj", "mtllib input.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
     try {
-        burin::read_model(path, {});
+        burin::MeshOptions options;
+        if (size % 2 == 1) options.attributes = burin::AttributeWish::all();
+        burin::read_model(path, options);
     } catch (const burin::InputError&) {
     }
     return 0;

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/huge_pages.h"
 #include "base/interrupt.h"
+#include "mesh/carry_attributes.h"
 #include "mesh/collect_triangles.h"
 #include "mesh/duplicate_polygons.h"
 #include "mesh/edge_links.h"
@@ -76,6 +77,7 @@ PolygonMesh without(const PolygonMesh& mesh, const std::vector<std::uint32_t>& d
     result.positions = mesh.positions;
     result.residuals = mesh.residuals;
     result.marked_edges = mesh.marked_edges;
+    result.source_vertices = mesh.source_vertices;
     auto next_dropped = dropped.begin();
     for (std::uint32_t i = 0; i < mesh.polygon_count(); ++i) {
         if (next_dropped != dropped.end() && *next_dropped == i) {
@@ -86,6 +88,7 @@ PolygonMesh without(const PolygonMesh& mesh, const std::vector<std::uint32_t>& d
         if (!mesh.polygon_material.empty()) {
             result.polygon_material.push_back(mesh.polygon_material[i]);
         }
+        if (!mesh.sources.empty()) result.sources.push_back(mesh.sources[i]);
     }
     return result;
 }
@@ -95,8 +98,9 @@ void triangulate_and_link(const PolygonMesh& polygons, Mesh& mesh) {
     mesh.next_on_edge = link_edges(mesh.triangles, polygons.positions.size());
 }
 
-/// `has_marks`: gets which of the marked edges are edges of the polygons.
-Mesh finish_mesh(PolygonMesh polygons, const MeshOptions& options, Mesh mesh, std::vector<bool>& has_marks) {
+/// `has_marks`: gets which of the marked edges are edges of the polygons. `attributes`: nullptr: there are none.
+Mesh finish_mesh(PolygonMesh polygons, const MeshOptions& options, Mesh mesh, std::vector<bool>& has_marks,
+                 AttributeCarrier* attributes = nullptr) {
     triangulate_and_link(polygons, mesh);
     const std::vector<std::uint32_t> duplicates = find_duplicates(polygons, mesh);
     mesh.repairs.duplicate_polygons = duplicates.size();
@@ -112,6 +116,7 @@ Mesh finish_mesh(PolygonMesh polygons, const MeshOptions& options, Mesh mesh, st
     if (!duplicates.empty() || is_subdivided) triangulate_and_link(polygons, mesh);
     std::vector<bool> found = mark_half_edges(polygons, mesh);
     if (!is_subdivided) has_marks = std::move(found);
+    if (attributes != nullptr && !is_subdivided) mesh.attributes = attributes->carry(polygons, mesh);
     mesh.polygon_material = std::move(polygons.polygon_material);
     const bool one_material =
         std::all_of(mesh.polygon_material.begin(), mesh.polygon_material.end(), [](std::uint32_t m) { return m == 0; });
@@ -192,7 +197,7 @@ std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
         return mesh;
     };
     const bool is_subdivided = options.subdivision_levels > 0;  // which numbers polygons anew
-    if (has_only_triangles(soup) && rounded.residuals.empty()) {
+    if (has_only_triangles(soup) && rounded.residuals.empty() && soup.attributes.empty()) {
         Mesh mesh = empty_mesh(0);
         // Memory that is done with is given back at once: fresh memory costs more than the work on it.
         release(soup.positions);
@@ -204,6 +209,7 @@ std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
         meshes.push_back(finish_triangles(options, std::move(mesh)));
         return meshes;
     }
+    list_rows(soup.corners, soup.attributes);
     const std::vector<CutPolygons> cut = cut_at_repeated_edges(soup, welded);
     PolygonsByObject groups = group_by_object(soup);
     if (groups.order.empty() && soup.polygon_count() >= kWorthSpatialOrder && !is_subdivided) {
@@ -213,6 +219,8 @@ std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
     std::optional<SpatialOrder> spatial;
     MarkedEdges marks(soup, welded);
     ObjectCollector collector(soup, positions, rounded.residuals, welded, marks);
+    std::optional<AttributeCarrier> attributes;
+    if (!soup.attributes.empty()) attributes.emplace(soup, welded);
     std::vector<std::uint32_t> objects;  // of the meshes
     std::size_t begin = 0;
     for (std::size_t object = 0; object < groups.end.size(); ++object) {
@@ -231,7 +239,8 @@ std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
         mesh.input_order.drop(dropped);
         if (!cut.empty()) note_cut_polygons(cut[object], mesh.repairs);
         std::vector<bool> has_marks;
-        meshes.push_back(finish_mesh(std::move(polygons), options, std::move(mesh), has_marks));
+        meshes.push_back(
+            finish_mesh(std::move(polygons), options, std::move(mesh), has_marks, attributes ? &*attributes : nullptr));
         for (std::size_t i = 0; i < has_marks.size(); ++i) {
             if (has_marks[i]) marks.note_polygon_has(collector.collected_marks()[i]);
         }

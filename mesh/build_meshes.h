@@ -17,6 +17,7 @@ struct MeshOptions {
     ModelBudget* budget = nullptr;  ///< counts what a model takes beyond its file; nullptr: as by default
     int threads = 1;                ///< for reading a file; 0 = all cores. Changes no result.
     bool strict = false;            ///< for reading a file: refuses what a reader would leave out with a note
+    AttributeWish attributes{};     ///< what to keep of the values at vertices
 };
 
 /// Turns the polygons of a file into one Mesh per object that has polygons left.
@@ -34,6 +35,8 @@ struct MeshOptions {
 ///
 /// A marked edge that no polygon of any object has becomes a loose edge of its own object;
 /// subdivision leaves it as it is.
+///
+/// Attributes of corners go with them; a mesh that is subdivided has none.
 ///
 /// Each object that has polygons or loose edges in the soup gives a mesh of its name, in order; a
 /// mesh whose polygons were all dropped may be empty.

@@ -29,10 +29,11 @@ struct Pose {
 
 class GltfReader {
   public:
-    GltfReader(const std::string& path, ModelBudget& budget, bool strict)
+    GltfReader(const std::string& path, ModelBudget& budget, bool strict, const AttributeWish& attributes)
         : path_(path),
           budget_(budget),
           strict_(strict),
+          attributes_(attributes),
           file_(path),
           container_(split_gltf_container(path, file_.bytes())),
           json_(parse_gltf_json(path, container_.json)),
@@ -78,7 +79,7 @@ class GltfReader {
         std::map<std::string, std::uint32_t> known;
         for (std::size_t i = 0; i < root_.size_of("meshes"); ++i) {
             throw_if_interrupted();
-            plans_.push_back(plan_gltf_mesh(root_.at("meshes").element(i), i, *buffers_, materials_));
+            plans_.push_back(plan_gltf_mesh(root_.at("meshes").element(i), i, *buffers_, materials_, attributes_));
             const auto number = static_cast<std::uint32_t>(i);
             first_like_.push_back(known.try_emplace(std::move(plans_[i].key), number).first->second);
         }
@@ -129,7 +130,7 @@ class GltfReader {
             if (first_like_[i] != i) continue;
             std::vector<const Pose*> poses(poses_[i].size());
             for (const auto& [pose, number] : poses_[i]) poses[number] = &pose;
-            GltfSurface surface = expand_gltf_mesh(plans_[i], *buffers_);
+            GltfSurface surface = expand_gltf_mesh(plans_[i], *buffers_, attributes_);
             for (const Pose* pose : poses) {
                 throw_if_interrupted();
                 const GltfSkin* skin = nullptr;
@@ -211,6 +212,7 @@ class GltfReader {
     std::string path_;
     ModelBudget& budget_;
     bool strict_;
+    const AttributeWish& attributes_;
     MappedFile file_;
     GltfContainer container_;
     nlohmann::json json_;
@@ -228,8 +230,8 @@ class GltfReader {
 
 }  // namespace
 
-GltfScene read_gltf(const std::string& path, ModelBudget& budget, bool strict) {
-    return GltfReader(path, budget, strict).read();
+GltfScene read_gltf(const std::string& path, ModelBudget& budget, bool strict, const AttributeWish& attributes) {
+    return GltfReader(path, budget, strict, attributes).read();
 }
 
 GltfScene read_gltf(const std::string& path) {

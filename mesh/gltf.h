@@ -42,8 +42,9 @@ struct GltfScene {
 /// buffers, node cycles. Throws InputError that names the place as glTF writes it,
 /// "meshes[2].primitives[0].indices". What the file makes of its data by naming them again and
 /// again, or has compressed, is counted in `budget` before it is expanded. `strict` refuses a file
-/// with skipped primitives.
-GltfScene read_gltf(const std::string& path, ModelBudget& budget, bool strict = false);
+/// with skipped primitives. `attributes`: what to keep of TEXCOORD_0, COLOR_0, and numbers whose names begin with "_".
+GltfScene read_gltf(const std::string& path, ModelBudget& budget, bool strict = false,
+                    const AttributeWish& attributes = {});
 GltfScene read_gltf(const std::string& path);
 
 }  // namespace burin

@@ -107,6 +107,7 @@ double load_component(const char* p, std::uint64_t type, bool normalized) {
 }
 
 int component_count(std::string_view type) {
+    if (type == "VEC2") return 2;
     if (type == "VEC3") return 3;
     if (type == "VEC4") return 4;
     return type == "MAT4" ? 16 : 1;
@@ -269,6 +270,11 @@ GltfAccessor GltfBuffers::without_sparse(const JsonPlace& reference, std::string
         place.fail("has no data for its " + std::to_string(accessor.count) + " elements");
     }
     return accessor;
+}
+
+std::string GltfBuffers::type_of(const JsonPlace& reference) const {
+    const std::uint32_t number = reference.index_below(root_.size_of("accessors"), "accessor");
+    return root_.at("accessors").element(number).at("type").text();
 }
 
 GltfAccessor GltfBuffers::accessor(const JsonPlace& reference, std::string_view type, std::uint64_t known_count) {

@@ -47,11 +47,13 @@ class GltfBuffers {
     /// Throws InputError if one of them has become shorter since it was opened.
     void check_are_whole() const;
 
-    /// The accessor that `reference` names, as if it had no "sparse" part. `type`: SCALAR, VEC3, VEC4 or MAT4. It may
-    /// have up to `known_count` elements that the file has no data for: the caller has memory for these.
+    /// The accessor that `reference` names, as if it had no "sparse" part. `type`: SCALAR, VEC2, VEC3, VEC4 or MAT4. It
+    /// may have up to `known_count` elements that the file has no data for: the caller has memory for these.
     GltfAccessor without_sparse(const JsonPlace& reference, std::string_view type, std::uint64_t known_count = 0);
     /// The accessor as it is.
     GltfAccessor accessor(const JsonPlace& reference, std::string_view type, std::uint64_t known_count = 0);
+    /// The type of the accessor that `reference` names: "VEC2".
+    std::string type_of(const JsonPlace& reference) const;
     /// The content of the view that `place.bufferView` names.
     std::string_view view(const JsonPlace& place);
 

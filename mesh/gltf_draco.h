@@ -18,8 +18,8 @@ struct DracoGeometry {
     std::map<std::string, GltfAccessor> attributes;  ///< by glTF's names
 };
 
-/// Decompresses the positions, joints and weights of a primitive that is_draco(). Loads the module
-/// burin_draco.so. Throws InputError if the data are broken or are not as the accessors say.
-DracoGeometry decode_draco(const GltfPrimitive& primitive, GltfBuffers& buffers);
+/// Decompresses the positions, joints and weights of a primitive that is_draco(), and the attributes asked for. Loads
+/// the module burin_draco.so. Throws InputError if the data are broken or are not as the accessors say.
+DracoGeometry decode_draco(const GltfPrimitive& primitive, GltfBuffers& buffers, const AttributeWish& attributes);
 
 }  // namespace burin

@@ -16,10 +16,11 @@ constexpr double kInstanceBytes = 12;  // a translation in the file
 constexpr std::array<const char*, 3> kExtensions = {kDracoExtension, kEdgeVisibilityExtension, kOutlineExtension};
 
 /// What the vertices come from, as text.
-std::string vertex_key(const JsonPlace& place) {
+std::string vertex_key(const JsonPlace& place, const AttributeWish& attributes) {
     std::string key;
     for (const auto& [name, accessor] : place.at("attributes").json().items()) {
-        if (name == "POSITION" || name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_")) {
+        if (name == "POSITION" || name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_") ||
+            is_wanted_attribute(name, attributes)) {
             key += name + ' ' + accessor.dump() + ' ';
         }
     }
@@ -68,8 +69,14 @@ bool GltfPrimitive::has_marked_edges() const {
 
 bool GltfPrimitive::is_draco() const { return place.has_extension(kDracoExtension); }
 
+bool is_wanted_attribute(std::string_view name, const AttributeWish& attributes) {
+    if (name == "TEXCOORD_0") return attributes.uv;
+    if (name == "COLOR_0") return attributes.color;
+    return name.starts_with('_') && attributes.wants(name);
+}
+
 GltfMeshPlan plan_gltf_mesh(const JsonPlace& mesh, std::size_t number, GltfBuffers& buffers,
-                            const GltfMaterials& materials) {
+                            const GltfMaterials& materials, const AttributeWish& attributes) {
     GltfMeshPlan plan;
     plan.name = mesh.text_or("name", "mesh" + std::to_string(number));
     std::map<std::string, std::size_t> groups;
@@ -105,7 +112,7 @@ GltfMeshPlan plan_gltf_mesh(const JsonPlace& mesh, std::size_t number, GltfBuffe
             plan.cut_out_lines += primitive.line_segments();
             continue;
         }
-        primitive.vertex_group = groups.try_emplace(vertex_key(place), groups.size()).first->second;
+        primitive.vertex_group = groups.try_emplace(vertex_key(place, attributes), groups.size()).first->second;
         const auto [key, is_new] = known.insert(primitive_key(place, primitive));
         if (!is_new) continue;
         plan.group_corners.resize(groups.size());

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mesh/gltf_buffers.h"
 #include "mesh/gltf_json.h"
 #include "mesh/gltf_materials.h"
+#include "mesh/vertex_attributes.h"
 
 // What a glTF will take is known before its accessors are expanded, so that too much can be refused.
 
@@ -49,8 +51,12 @@ struct GltfMeshPlan {
     std::uint64_t cut_out_lines = 0;
 };
 
+/// Whether an attribute of a primitive, by its name in the file, is one that was asked for.
+bool is_wanted_attribute(std::string_view name, const AttributeWish& attributes);
+
+/// `attributes`: primitives that differ in these do not share their vertices.
 GltfMeshPlan plan_gltf_mesh(const JsonPlace& mesh, std::size_t number, GltfBuffers& buffers,
-                            const GltfMaterials& materials);
+                            const GltfMaterials& materials, const AttributeWish& attributes = {});
 
 /// Whether only the vertices that a group's primitives use are read: they use few of them.
 bool uses_few_vertices(const GltfMeshPlan& mesh, const GltfPrimitive& primitive);

@@ -16,7 +16,7 @@ struct GltfSurface {
     std::vector<GltfVertices> vertices;  ///< in order; together, all of the soup's
 };
 
-/// Expands the accessors of a mesh: triangles, and lines as marked edges.
-GltfSurface expand_gltf_mesh(const GltfMeshPlan& plan, GltfBuffers& buffers);
+/// Expands the accessors of a mesh: triangles, and lines as marked edges. `attributes`: which further accessors.
+GltfSurface expand_gltf_mesh(const GltfMeshPlan& plan, GltfBuffers& buffers, const AttributeWish& attributes);
 
 }  // namespace burin

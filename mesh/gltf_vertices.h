@@ -24,6 +24,7 @@ struct GltfVertices {
     std::uint64_t elements = 0;                  ///< of each accessor
     std::vector<std::uint32_t> used;             ///< the elements that are vertices; empty: all
     std::shared_ptr<const DracoGeometry> draco;  ///< if it is compressed so
+    std::vector<std::uint32_t> first_rows;       ///< per attribute of the soup: of the first vertex; or kNoRow
 
     std::uint64_t size() const { return used.empty() ? elements : used.size(); }
     std::uint64_t element_of(std::uint64_t vertex) const { return used.empty() ? vertex : used[vertex]; }

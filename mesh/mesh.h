@@ -8,6 +8,7 @@
 
 #include "mesh/border_index.h"
 #include "mesh/input_order.h"
+#include "mesh/vertex_attributes.h"
 
 // A mesh is what all else works on: welded vertices, triangles with links across edges, and the polygons that they are
 // parts of.
@@ -62,6 +63,9 @@ struct Mesh {
     std::vector<std::array<std::uint32_t, 2>> loose_edges;
     /// The border half-edges, findable by place (in the coordinates of `positions`).
     BorderIndex borders;
+
+    /// Values at the corners of triangles, as far as they were asked for and the file has them.
+    std::vector<AttributeLayer> attributes;
 
     MeshRepairs repairs;
 

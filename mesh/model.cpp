@@ -29,8 +29,16 @@ void add_notes(const std::string& path, const std::vector<std::string>& notes, M
     for (const std::string& note : notes) model.notes.push_back(path + ": " + note);
 }
 
+void note_subdivision(bool has_attributes, const MeshOptions& options, std::vector<std::string>& notes) {
+    if (has_attributes && options.subdivision_levels > 0)
+        notes.push_back("what the file gives at vertices (u, v, colours, attributes) is lost where it is subdivided");
+}
+
 Model model_of(const std::string& path, PolygonSoup soup, const MeshOptions& options) {
     Model model;
+    list_rows(soup.corners, soup.attributes);
+    note_subdivision(!soup.attributes.empty(), options, soup.notes);
+    model.attribute_names = std::move(soup.attribute_names);
     // A control mesh is what its file says, or none at all.
     if (options.subdivision_levels == 0) cut_at_self_crossings(path, soup);
     model.materials = std::move(soup.materials);
@@ -47,6 +55,20 @@ Model model_of(const std::string& path, GltfScene scene, const MeshOptions& opti
     Model model;
     constexpr std::uint32_t kNoMesh = 0xFFFFFFFFu;
     std::vector<std::uint32_t> mesh_number(scene.meshes.size(), kNoMesh);
+    const auto add_name = [&model](std::string name) {
+        auto& names = model.attribute_names;
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
+    };
+    bool has_attributes = false;
+    for (PolygonSoup& soup : scene.meshes) {
+        has_attributes = has_attributes || !soup.attributes.empty();
+        for (std::string& name : soup.attribute_names) add_name(std::move(name));
+        for (const std::string& note : soup.notes) {
+            if (std::find(scene.notes.begin(), scene.notes.end(), note) == scene.notes.end())
+                scene.notes.push_back(note);
+        }
+    }
+    note_subdivision(has_attributes, options, scene.notes);
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         std::vector<Mesh> built = build_meshes_of(path, std::move(scene.meshes[i]), options);
         if (built.empty()) continue;
@@ -71,7 +93,7 @@ Model read_by_extension(const std::string& path, const MeshOptions& options) {
     const std::string extension = lower_extension(path);
     if (extension == ".obj") {
         std::vector<std::string> material_files;
-        PolygonSoup soup = read_obj(path, options.threads, &material_files);
+        PolygonSoup soup = read_obj(path, options.threads, &material_files, options.attributes);
         if (options.strict && !soup.notes.empty()) {
             throw InputError(path + ": " + soup.notes.front() + "; re-export the model, or leave out --strict");
         }
@@ -79,12 +101,15 @@ Model read_by_extension(const std::string& path, const MeshOptions& options) {
         model.other_files = std::move(material_files);
         return model;
     }
-    if (extension == ".ply") return model_of(path, read_ply(path, options.threads, options.strict), options);
+    if (extension == ".ply")
+        return model_of(path, read_ply(path, options.threads, options.strict, options.attributes), options);
     if (extension == ".stl") return model_of(path, read_stl(path, options.strict), options);
     if (extension == ".off") return model_of(path, read_off(path, options.strict), options);
     if (extension == ".gltf" || extension == ".glb") {
         ModelBudget by_default;
-        return model_of(path, read_gltf(path, options.budget != nullptr ? *options.budget : by_default, options.strict),
+        return model_of(path,
+                        read_gltf(path, options.budget != nullptr ? *options.budget : by_default, options.strict,
+                                  options.attributes),
                         options);
     }
     throw InputError(path + ": unknown kind of model '" + extension + "'; burin reads " + kModelExtensions);

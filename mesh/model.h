@@ -39,7 +39,8 @@ struct Model {
     std::uint64_t skipped_primitives = 0;   ///< of a glTF: points, and what has no positions
     std::uint64_t non_finite_polygons = 0;  ///< left out, of an STL
     std::vector<std::string> notes;  ///< what the user should know of how the file was read: "path: what", a line each
-    std::vector<std::string> other_files;  ///< that were read beside the model's own: materials, buffers
+    std::vector<std::string> attribute_names;  ///< of the values at vertices that have names, if any were asked for
+    std::vector<std::string> other_files;      ///< that were read beside the model's own: materials, buffers
 };
 
 /// The extensions of the formats that read_model can read, as messages list them.

@@ -33,8 +33,13 @@ bool is_known_to_say_nothing(std::string_view keyword) {
 
 class ObjParser {
   public:
-    ObjParser(const std::string& path, std::string_view text, bool is_whole)
-        : path_(path), text_(text), is_whole_(is_whole), lines_(text) {}
+    ObjParser(const std::string& path, std::string_view text, bool is_whole, const AttributeWish& attributes)
+        : path_(path),
+          text_(text),
+          is_whole_(is_whole),
+          has_uv_(attributes.uv),
+          has_colors_(attributes.color),
+          lines_(text) {}
 
     ObjPart parse() {
         std::string_view line;
@@ -47,6 +52,7 @@ class ObjParser {
             parse_line(goes_on ? joined_lines(line) : line);
         }
         part_.line_count = lines_.line_number();
+        add_attributes();
         return std::move(part_);
     }
 
@@ -87,6 +93,7 @@ class ObjParser {
             --n;
         }
         soup_.add_polygon(numbers);
+        if (has_uv_) uv_.rows.resize(soup_.corners.size(), AttributeLayer::kNoRow);
         return true;
     }
 
@@ -120,6 +127,8 @@ class ObjParser {
     bool parse_statement(std::string_view keyword, LineScanner& scan) {
         if (keyword == "v") {
             parse_vertex(scan);
+        } else if (keyword == "vt" && has_uv_) {
+            parse_texture_coordinates(scan);
         } else if (keyword == "f" || keyword == "fo") {
             parse_face(scan);
         } else if (keyword == "l") {
@@ -157,6 +166,58 @@ class ObjParser {
             }
         }
         soup_.positions.push_back(p);
+        if (has_colors_) parse_color(scan);
+    }
+
+    /// A colour of three numbers behind a vertex. One number there is a weight.
+    void parse_color(LineScanner& scan) {
+        std::array<float, 3> color{};
+        std::size_t count = 0;
+        for (double number = 0; count < 3 && scan.number(number); ++count) color[count] = static_cast<float>(number);
+        if (count < 3) return;
+        color_rows_.resize(soup_.positions.size() - 1, AttributeLayer::kNoRow);
+        color_rows_.push_back(static_cast<std::uint32_t>(colors_.row_count()));
+        colors_.add_row(color);
+    }
+    /// What is no number counts as 0, as what stands there has no other use.
+    void parse_texture_coordinates(LineScanner& scan) {
+        std::array<float, 2> uv{};
+        for (float& number : uv) {
+            double value = 0;
+            if (scan.number(value)) number = static_cast<float>(value);
+        }
+        uv_.add_row(uv);
+    }
+    /// Of a corner "7/1", "7/1/2", "7/-1".
+    std::uint32_t texture_coordinates_of(std::string_view corner) {
+        const std::size_t slash = corner.find('/');
+        if (slash == corner.npos || slash + 1 == corner.size() || corner[slash + 1] == '/')
+            return AttributeLayer::kNoRow;
+        std::int64_t number = 0;
+        const char* const p = scan_integer(corner.data() + slash + 1, corner.data() + corner.size(), number);
+        if (number < 0) number += static_cast<std::int64_t>(uv_.row_count()) + 1;
+        if (p != nullptr && number > 0 && number < std::int64_t{AttributeLayer::kNoRow})
+            return static_cast<std::uint32_t>(number - 1);
+        ++part_.missing_texture_coordinates;
+        return AttributeLayer::kNoRow;
+    }
+    /// Gives the soup what was found.
+    void add_attributes() {
+        const auto missing = [](std::uint32_t row, const AttributeLayer& layer) {
+            return row != AttributeLayer::kNoRow && row >= layer.row_count();
+        };
+        for (std::uint32_t& row : uv_.rows) {
+            if (!missing(row, uv_)) continue;
+            row = AttributeLayer::kNoRow;
+            ++part_.missing_texture_coordinates;
+        }
+        if (!uv_.values.empty()) soup_.attributes.push_back(std::move(uv_));
+        if (colors_.values.empty()) return;
+        color_rows_.resize(soup_.positions.size(), AttributeLayer::kNoRow);
+        colors_.rows.reserve(soup_.corners.size());
+        for (const std::uint32_t v : soup_.corners)
+            colors_.rows.push_back(v < color_rows_.size() ? color_rows_[v] : AttributeLayer::kNoRow);
+        soup_.attributes.push_back(std::move(colors_));
     }
 
     /// The vertex number at the start of a corner "7", "7/1", "7//2", "7/1/2", "-1/…".
@@ -193,6 +254,7 @@ class ObjParser {
         for (std::string_view corner = scan.word(); !corner.empty(); corner = scan.word()) {
             if (corner.front() == '#') break;
             corners_.push_back(parse_corner(corner));
+            if (has_uv_) uv_.rows.push_back(texture_coordinates_of(corner));
         }
         if (corners_.size() < 3 && lines_.rest().empty() && !is_line_end(text_.back())) {
             fail("the file ends in the middle of a face; was it written completely?");
@@ -217,18 +279,21 @@ class ObjParser {
     const std::string& path_;
     const std::string_view text_;
     const bool is_whole_;
+    const bool has_uv_, has_colors_;  // whether they are asked for
     LineReader lines_;
     std::size_t first_line_ = 0;  // of the statement
     ObjPart part_;
     PolygonSoup& soup_ = part_.soup;
     std::string joined_;
     std::vector<std::uint32_t> corners_;
+    AttributeLayer uv_{AttributeKind::uv, {}, {}, {}}, colors_{AttributeKind::color, {}, {}, {}};
+    std::vector<std::uint32_t> color_rows_;  // per vertex
 };
 
 }  // namespace
 
-ObjPart parse_obj_part(const std::string& path, std::string_view text, bool is_whole) {
-    return ObjParser(path, text, is_whole).parse();
+ObjPart parse_obj_part(const std::string& path, std::string_view text, bool is_whole, const AttributeWish& attributes) {
+    return ObjParser(path, text, is_whole, attributes).parse();
 }
 
 std::vector<std::string_view> cut_between_statements(std::string_view text, std::size_t size) {

@@ -39,11 +39,14 @@ struct ObjPart {
     /// that is first.
     std::int64_t largest_reference = 0;
     std::size_t largest_reference_line = 0;
+
+    std::uint64_t missing_texture_coordinates = 0;  ///< corners that name some which do not exist
 };
 
 /// Parses all the text of an OBJ file (`is_whole`) or a piece. Throws InputError, which names the right
-/// line and number of vertices if it is all.
-ObjPart parse_obj_part(const std::string& path, std::string_view text, bool is_whole);
+/// line and number of vertices if it is all. `attributes`: what the soup gets of them; a piece must have none.
+ObjPart parse_obj_part(const std::string& path, std::string_view text, bool is_whole,
+                       const AttributeWish& attributes = {});
 
 /// Cuts a text into pieces of at least `size` bytes at line ends, but not behind a backslash, where a
 /// statement goes on.

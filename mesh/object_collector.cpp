@@ -81,7 +81,9 @@ PolygonMesh ObjectCollector::collect(const PolygonsByObject& groups, std::size_t
         if (!soup_.polygon_material.empty()) {
             mesh.polygon_material.push_back(soup_.material_of(polygon));
         }
+        if (!soup_.attributes.empty()) mesh.sources.push_back(static_cast<std::uint32_t>(polygon));
     }
+    if (!soup_.attributes.empty()) mesh.source_vertices = used_;
     if (!residuals_.empty()) {
         for (const std::uint32_t v : used_) mesh.residuals.push_back(residuals_[v]);
     }

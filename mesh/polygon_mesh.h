@@ -19,6 +19,8 @@ struct PolygonMesh {
     std::vector<std::uint32_t> ends;              ///< empty: all polygons are triangles
     std::vector<std::uint32_t> polygon_material;  ///< empty: all have material 0
     std::vector<std::array<std::uint32_t, 2>> marked_edges;
+    /// The polygon of the soup that each one was, and the vertex of the soup; empty: nobody asks.
+    std::vector<std::uint32_t> sources, source_vertices;
 
     glm::dvec3 local_position(std::uint32_t vertex) const {
         const glm::dvec3 p(positions[vertex]);

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "mesh/vertex_attributes.h"
+
 // A reader delivers a soup: polygons, marks, names and materials as they stand in the file.
 
 namespace burin {
@@ -34,7 +36,9 @@ struct PolygonSoup {
     std::vector<std::string> object_names;                   ///< at least one
     std::vector<Material> materials;                         ///< at least one
     std::uint64_t non_finite_polygons = 0;                   ///< left out: a coordinate is not finite or beyond 1e30
-    std::vector<std::string> notes;  ///< what the reader left out or did not take as it stands, a line each
+    std::vector<AttributeLayer> attributes;                  ///< as they were asked for; those of objects are together
+    std::vector<std::string> attribute_names;  ///< if any were asked for: all named ones that the file has
+    std::vector<std::string> notes;            ///< what the reader left out or did not take as it stands, a line each
 
     /// Corner counts are stored in 32 bits.
     static constexpr std::size_t kMaxCorners = std::numeric_limits<std::uint32_t>::max();

@@ -15,7 +15,9 @@
 namespace burin {
 namespace {
 
-ObjPart parse(const std::string& path, std::string_view text, int threads, std::size_t piece_size) {
+ObjPart parse(const std::string& path, std::string_view text, int threads, std::size_t piece_size,
+              const AttributeWish& attributes) {
+    if (attributes.uv || attributes.color) return parse_obj_part(path, text, true, attributes);
     const std::vector<std::string_view> pieces = cut_between_statements(text, piece_size);
     if (pieces.size() > 1) {
         if (std::optional<ObjPart> whole = parse_obj_pieces(path, pieces, threads)) return std::move(*whole);
@@ -54,6 +56,7 @@ PolygonSoup finished(const std::string& path, ObjPart file, std::vector<std::str
     };
     note(file.points, "points");
     note(file.free_forms, "curves and surfaces of higher order");
+    note(file.missing_texture_coordinates, "texture coordinates of corners that name some which do not exist");
     if (const auto& unknown = file.unknown; unknown.count > 0) {
         soup.notes.push_back(
             "lines left out that begin with a word that is not known: " + std::to_string(unknown.count) +
@@ -72,22 +75,23 @@ PolygonSoup finished(const std::string& path, ObjPart file, std::vector<std::str
 }  // namespace
 
 PolygonSoup read_obj_text(const std::string& path, std::string_view text, int threads, std::size_t piece_size,
-                          std::vector<std::string>* material_files) {
+                          std::vector<std::string>* material_files, const AttributeWish& attributes) {
     if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
         throw InputError(path + ": the text is UTF-16; save it as UTF-8 or ASCII");
     }
-    ObjPart file = parse(path, without_byte_order_mark(text), threads, piece_size);
+    ObjPart file = parse(path, without_byte_order_mark(text), threads, piece_size, attributes);
     check(path, file);
     return finished(path, std::move(file), material_files);
 }
 
-PolygonSoup read_obj(const std::string& path, int threads, std::vector<std::string>* material_files) {
+PolygonSoup read_obj(const std::string& path, int threads, std::vector<std::string>* material_files,
+                     const AttributeWish& attributes) {
     const MappedFile file(path);
     const std::string_view text = file.bytes();
     const auto workers = static_cast<std::size_t>(resolve_thread_count(threads));
     // Threads pay for themselves where there is enough to read.
     const std::size_t size = std::clamp<std::size_t>(text.size() / (8 * workers), 1 << 18, 1 << 20);
-    return read_obj_text(path, text, threads, workers == 1 ? text.size() : size, material_files);
+    return read_obj_text(path, text, threads, workers == 1 ? text.size() : size, material_files, attributes);
 }
 
 }  // namespace burin

@@ -23,21 +23,25 @@ namespace burin {
 /// Lines of text end in LF, CRLF or CR alone. Keywords may be in capitals.
 
 /// Wavefront OBJ. `o` names start objects (`g` names, in a file without any `o`), `usemtl` sets the
-/// material, `l` marks edges, or draws lines of the current object. Texture coordinates, normals, free-form surfaces,
-/// points are skipped; lines that
+/// material, `l` marks edges, or draws lines of the current object. Normals, free-form surfaces and points are
+/// skipped; lines that
 /// begin with a word that OBJ does not have are noted. Colours and opacities come from the `mtllib` files that lie in
 /// the model's folder or below. Read on `threads` threads (0 = all cores), which changes nothing else.
 /// `material_files`: gets the paths of those that were read.
-PolygonSoup read_obj(const std::string& path, int threads = 1, std::vector<std::string>* material_files = nullptr);
+/// `attributes`: what to keep of texture coordinates and of colours behind the coordinates of vertices.
+PolygonSoup read_obj(const std::string& path, int threads = 1, std::vector<std::string>* material_files = nullptr,
+                     const AttributeWish& attributes = {});
 /// Reads the text of an OBJ file, in pieces of at least `piece_size` bytes, which changes nothing either.
 PolygonSoup read_obj_text(const std::string& path, std::string_view text, int threads, std::size_t piece_size,
-                          std::vector<std::string>* material_files = nullptr);
+                          std::vector<std::string>* material_files = nullptr, const AttributeWish& attributes = {});
 
 /// PLY: ASCII and both binary byte orders, polygons and triangle strips, all number types.
 /// `element edge` marks edges, or draws lines; other elements and properties are skipped. Plain ASCII is read on
 /// `threads` threads (0 = all cores), which changes nothing else. Values of an ASCII file may stand on any lines; where
 /// that fails each item begins a line, and what follows its last value there is left out.
-PolygonSoup read_ply(const std::string& path, int threads = 1, bool strict = false);
+/// `attributes`: what to keep of further properties of vertices, s and t or u and v, red, green and blue, and others.
+PolygonSoup read_ply(const std::string& path, int threads = 1, bool strict = false,
+                     const AttributeWish& attributes = {});
 
 /// STL, ASCII and binary. Each `solid` of an ASCII file is an object. Triangles whose coordinates are not finite or
 /// beyond 1e30 are left out. A binary file of whole triangles is read to its end, whatever its count says. A text may

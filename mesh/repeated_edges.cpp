@@ -74,6 +74,23 @@ class Pieces {
     std::vector<std::size_t> ends_;
 };
 
+/// Notes which corners of polygon i the corners of a piece of it are.
+void add_origins(const PolygonSoup& soup, std::size_t i, std::span<const std::uint32_t> piece,
+                 const std::vector<std::uint32_t>& welded, std::vector<CornerOrigin>& origins) {
+    const std::span<const std::uint32_t> polygon = soup.polygon(i);
+    const auto first = static_cast<std::uint32_t>(polygon.data() - soup.corners.data());
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> corners;  // welded vertex, corner
+    for (std::uint32_t k = 0; k < polygon.size(); ++k) corners.emplace_back(welded[polygon[k]], first + k);
+    const bool is_whole = piece.data() == polygon.data();
+    if (!is_whole) std::sort(corners.begin(), corners.end());
+    for (std::size_t k = 0; k < piece.size(); ++k) {
+        const std::uint32_t corner =
+            is_whole ? corners[k].second
+                     : std::lower_bound(corners.begin(), corners.end(), std::pair(welded[piece[k]], 0u))->second;
+        origins.push_back({corner, corner, 0});
+    }
+}
+
 }  // namespace
 
 void remove_spikes(std::vector<std::uint32_t>& corners) {
@@ -106,11 +123,13 @@ std::vector<CutPolygons> cut_at_repeated_edges(PolygonSoup& soup, const std::vec
     std::vector<CutPolygons> cut;
     PolygonSoup result;  // its polygons, from the first one on that is cut
     std::vector<std::uint32_t> corners, sorted;
+    std::vector<CornerOrigin> origins;  // of the result's corners, if anybody asks
     Pieces pieces;
     const auto add = [&](std::span<const std::uint32_t> polygon, std::size_t i) {
         result.add_polygon(polygon);
         if (!soup.polygon_object.empty()) result.polygon_object.push_back(soup.polygon_object[i]);
         if (!soup.polygon_material.empty()) result.polygon_material.push_back(soup.polygon_material[i]);
+        if (!soup.attributes.empty()) add_origins(soup, i, polygon, welded, origins);
     };
     for (std::size_t i = 0; i < soup.polygon_ends.size(); ++i) {
         if ((i & 0xFFFF) == 0) throw_if_interrupted();
@@ -147,6 +166,7 @@ std::vector<CutPolygons> cut_at_repeated_edges(PolygonSoup& soup, const std::vec
     soup.polygon_ends = std::move(result.polygon_ends);
     soup.polygon_object = std::move(result.polygon_object);
     soup.polygon_material = std::move(result.polygon_material);
+    if (!soup.attributes.empty()) move_rows(origins, soup.attributes);
     return cut;
 }
 

@@ -315,18 +315,21 @@ class Cutter {
             const bool is_cut = polygon.size() >= 4 && find_pieces(polygon, i);
             if (is_cut && !is_any_cut_) {
                 is_any_cut_ = true;
-                for (std::size_t before = 0; before < i; ++before) add(soup_.polygon(before), before);
+                for (std::size_t before = 0; before < i; ++before) add_whole(before);
             }
             if (!is_any_cut_) continue;
-            if (!is_cut) add(polygon, i);
+            if (!is_cut) add_whole(i);
             for (const auto& piece : pieces_) add(piece, i);
+            origins_.insert(origins_.end(), piece_origins_.begin(), piece_origins_.end());
             pieces_.clear();
+            piece_origins_.clear();
         }
         if (is_any_cut_) {
             soup_.corners = std::move(result_.corners);
             soup_.polygon_ends = std::move(result_.polygon_ends);
             soup_.polygon_object = std::move(result_.polygon_object);
             soup_.polygon_material = std::move(result_.polygon_material);
+            if (!soup_.attributes.empty()) move_rows(origins_, soup_.attributes);
         }
         if (uncut_ > 0) {
             soup_.notes.push_back(
@@ -344,6 +347,14 @@ class Cutter {
         result_.add_polygon(polygon);
         if (!soup_.polygon_object.empty()) result_.polygon_object.push_back(soup_.polygon_object[i]);
         if (!soup_.polygon_material.empty()) result_.polygon_material.push_back(soup_.polygon_material[i]);
+    }
+
+    void add_whole(std::size_t i) {
+        const std::span<const std::uint32_t> polygon = soup_.polygon(i);
+        add(polygon, i);
+        if (soup_.attributes.empty()) return;
+        auto corner = static_cast<std::uint32_t>(polygon.data() - soup_.corners.data());
+        for (std::size_t k = 0; k < polygon.size(); ++k, ++corner) origins_.push_back({corner, corner, 0});
     }
 
     bool find_pieces(std::span<const std::uint32_t> polygon, std::size_t number) {
@@ -365,7 +376,10 @@ class Cutter {
         }
         for (const auto& face : *faces) {
             auto& piece = pieces_.emplace_back();
-            for (const std::uint32_t node : face) piece.push_back(vertex_at(graph, node, polygon));
+            for (const std::uint32_t node : face) {
+                piece.push_back(vertex_at(graph, node, polygon));
+                if (!soup_.attributes.empty()) piece_origins_.push_back(origin_of(graph, node, polygon));
+            }
         }
         new_vertices_.clear();
         return true;
@@ -382,6 +396,16 @@ class Cutter {
         new_vertices_.emplace_back(node, vertex);
         return vertex;
     }
+    CornerOrigin origin_of(const SideGraph& graph, std::uint32_t node, std::span<const std::uint32_t> polygon) const {
+        const auto first = static_cast<std::uint32_t>(polygon.data() - soup_.corners.data());
+        if (graph.is_corner(node)) {
+            const auto corner = first + static_cast<std::uint32_t>(graph.corner_at(node));
+            return {corner, corner, 0};
+        }
+        const auto [side, place] = graph.new_node(node);
+        return {first + static_cast<std::uint32_t>(side),
+                first + static_cast<std::uint32_t>((side + 1) % polygon.size()), place};
+    }
     void note_uncut(std::size_t number) {
         if (uncut_++ == 0) first_uncut_ = number;
     }
@@ -395,6 +419,7 @@ class Cutter {
     std::vector<glm::dvec3> corners_;
     std::vector<glm::dvec2> flat_;
     std::vector<std::vector<std::uint32_t>> pieces_;                     // of one polygon
+    std::vector<CornerOrigin> origins_, piece_origins_;                  // of corners, if attributes are there
     std::vector<std::pair<std::uint32_t, std::uint32_t>> new_vertices_;  // its crossings: node, vertex
 };
 

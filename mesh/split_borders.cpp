@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "base/interrupt.h"
@@ -134,6 +135,27 @@ void cut_fan(std::vector<Part>& parts, std::uint8_t edge, std::span<const std::u
     }
 }
 
+/// A vertex that cuts an edge of a triangle.
+struct PointOnEdge {
+    std::uint32_t vertex;
+    HalfEdge edge;  ///< 0 to 2
+    double share;
+};
+
+/// Adds the rows of a part of a triangle of `mesh` to a layer.
+void add_rows(const Mesh& mesh, std::uint32_t triangle, const AttributeLayer& from,
+              const std::array<std::uint32_t, 3>& corners, std::span<const PointOnEdge> points, AttributeLayer& to) {
+    const std::uint32_t* const rows = from.rows.data() + 3 * std::size_t{triangle};
+    const auto& own = mesh.triangles[triangle];
+    for (const std::uint32_t vertex : corners) {
+        const auto point =
+            std::find_if(points.begin(), points.end(), [&](const PointOnEdge& p) { return p.vertex == vertex; });
+        to.rows.push_back(point != points.end()
+                              ? to.add_between(rows[point->edge], rows[(point->edge + 1) % 3], point->share)
+                              : rows[std::find(own.begin(), own.end(), vertex) - own.begin()]);
+    }
+}
+
 }  // namespace
 
 std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach) {
@@ -162,6 +184,7 @@ std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach) {
         // The longest edge comes first, whichever corner the triangle begins with.
         const auto first = cut;
         while (cut != cuts.end() && cut->half_edge / 3 == t) ++cut;
+        std::vector<PointOnEdge> on_edges;
         const auto corner = [&](HalfEdge h) { return mesh.local_position(mesh.triangles[t][h % 3]); };
         std::array<HalfEdge, 3> edges{3 * t, 3 * t + 1, 3 * t + 2};
         const auto length = [&](HalfEdge h) { return glm::distance(corner(h), corner(h + 1)); };
@@ -172,6 +195,7 @@ std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach) {
             for (auto it = first; it != cut; ++it) {
                 if (it->half_edge != h) continue;
                 points.push_back(static_cast<std::uint32_t>(result.positions.size()));
+                if (!mesh.attributes.empty()) on_edges.push_back({points.back(), h % 3, it->share});
                 add_position(result, glm::mix(corner(h), corner(h + 1), it->share), mesh.has_residuals());
             }
             if (!points.empty()) cut_fan(parts, static_cast<std::uint8_t>(h % 3), points);
@@ -179,6 +203,8 @@ std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach) {
         for (const Part& part : parts) {
             result.triangles.push_back(part.corners);
             result.triangle_polygon.push_back(mesh.polygon_of(t));
+            for (std::size_t i = 0; i < mesh.attributes.size(); ++i)
+                add_rows(mesh, t, mesh.attributes[i], part.corners, on_edges, result.attributes[i]);
             if (mesh.marked.empty()) continue;
             for (const std::uint8_t edge : part.edges) result.marked.push_back(edge < 3 && mesh.marked[3 * t + edge]);
         }

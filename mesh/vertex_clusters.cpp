@@ -166,6 +166,10 @@ Mesh VertexClusters::merge() {
         if (has_collapsed(corners)) continue;
         result.triangles.push_back(corners);
         result.triangle_polygon.push_back(mesh_.polygon_of(t));
+        for (std::size_t i = 0; i < result.attributes.size(); ++i) {
+            const auto own = mesh_.attributes[i].rows.begin() + 3 * static_cast<std::ptrdiff_t>(t);
+            result.attributes[i].rows.insert(result.attributes[i].rows.end(), own, own + 3);
+        }
         if (mesh_.marked.empty()) continue;
         for (HalfEdge k = 0; k < 3; ++k) result.marked.push_back(mesh_.marked[3 * t + k]);
     }
@@ -190,6 +194,8 @@ Mesh with_polygons_of(const Mesh& mesh) {
     result.polygon_material = mesh.polygon_material;
     result.repairs = mesh.repairs;
     result.loose_edges = mesh.loose_edges;
+    for (const AttributeLayer& layer : mesh.attributes)
+        result.attributes.push_back({layer.kind, layer.name, layer.values, {}});
     result.polygon_normals = mesh.polygon_normals;
     if (!result.polygon_normals.empty()) return result;
     result.polygon_normals.reserve(mesh.triangles.size());

@@ -218,7 +218,11 @@ class StrokeExplainer {
             variables |= set.test->needs();
         }
         SampleColumns read;
-        columns_.fill({&sample, 1}, variables, variant, read);
+        columns_.fill({&sample, 1}, variables, variant, read, compiled.attributes);
+        for (std::size_t i = 0; i < compiled.attributes.size(); ++i) {
+            to.variables.push_back(
+                {"attr(\"" + printable(compiled.attributes[i], 200) + "\")", {{0, read.of_attribute(i)[0]}}, false});
+        }
         for (const VariableRow& row : variable_table()) {
             ExplainedVariable variable{std::string(row.name), {}, component_count(row.type) == 3};
             for (std::size_t k = 0; k < component_count(row.type); ++k) {

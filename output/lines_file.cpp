@@ -100,6 +100,17 @@ void add_pieces(const FoundLines& lines, ArrayWriter& out) {
         const LineSides& s = lines.sides[i / 2];
         for (int k = 0; k < 3; ++k) v[k] = s.front_normals[i % 2][k], v[3 + k] = s.other_normals[i % 2][k];
     });
+    const SurfaceNeeds& surface = lines.surface;
+    const auto add_values = [&](const char* name, bool is_known, std::size_t first, std::size_t count) {
+        if (!is_known) return;
+        out.add<float>(name, 2 * n, count, [&, first, count](std::size_t i, float* v) {
+            std::copy_n(&lines.surface_values[i * surface.column_count() + first], count, v);
+        });
+    };
+    add_values("kr", surface.kr, 0, 1);
+    add_values("uv", surface.uv, surface.uv_column(), 2);
+    add_values("Cv", surface.color, surface.color_column(), 3);
+    add_values("attributes", !surface.attributes.empty(), surface.attribute_column(), surface.attributes.size());
     out.add<double>("planes", n, 10, [&](std::size_t i, double* v) {
         put_plane(lines.sides[i].front_plane, v);
         put_plane(lines.sides[i].beyond_plane, v + 5);
@@ -204,6 +215,7 @@ std::map<std::string, std::string> metadata_of(const FoundLines& lines, const Ke
     }
     data["smooth_contours"] = lines.has_smooth_contours ? "1" : "0";
     data["filter"] = std::to_string(static_cast<int>(lines.filter));
+    if (!lines.surface.attributes.empty()) data["attributes"] = names_as_json(lines.surface.attributes);
     if (!surface.pixels.empty()) data["surface_width"] = std::to_string(surface.width);
     return data;
 }

@@ -14,6 +14,7 @@ static_assert(std::endian::native == std::endian::little, "the file is little-en
 
 constexpr std::string_view kLinesFormat = "burin-lines 1";
 constexpr std::size_t kLinesAlignment = 64;
+constexpr std::size_t kMostLinesAttributes = 256;
 constexpr std::size_t kMostLinesDirectoryBytes = 16u << 20;
 constexpr std::uint8_t kOccludes = 1, kFrontOnLeft = 2, kIsBeyond = 4;                            // of `flags`
 constexpr std::uint8_t kHidden = 1, kClosed = 2, kChainClosed = 4, kFirstEnd = 8, kLastEnd = 32;  // of `chain_flags`

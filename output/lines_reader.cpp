@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -276,6 +277,41 @@ void read_pieces(const ArrayReader& in, FoundLines& lines) {
     });
 }
 
+/// Values of surfaces at the ends of pieces, as far as they are there.
+void read_surface_values(const ArrayReader& in, const MetadataReader& data, FoundLines& lines) {
+    SurfaceNeeds& known = lines.surface;
+    known.kr = in.has("kr");
+    known.uv = in.has("uv");
+    known.color = in.has("Cv");
+    if (in.has("attributes")) known.attributes = data.names("attributes");
+    if (known.attributes.size() > kMostLinesAttributes)
+        in.fail("__metadata__.attributes: at most " + std::to_string(kMostLinesAttributes) + " names are possible");
+    const auto descends = [](const std::string& a, const std::string& b) { return a >= b; };
+    if (std::adjacent_find(known.attributes.begin(), known.attributes.end(), descends) != known.attributes.end() ||
+        (in.has("attributes") && known.attributes.empty()))
+        in.fail("__metadata__.attributes: must be names in ascending order");
+    const std::size_t rows = 2 * lines.sides.size(), columns = known.column_count();
+    std::vector<float> values;
+    std::vector<std::array<std::size_t, 2>> arrays;  // where each begins in `values`, and how many columns it has
+    const auto take = [&](const char* name, bool is_known, std::size_t count) {
+        if (!is_known) return;
+        arrays.push_back({values.size(), count});
+        in.take<float>(name, rows, count,
+                       [&](std::size_t, const float* v) { values.insert(values.end(), v, v + count); });
+    };
+    take("kr", known.kr, 1);
+    take("uv", known.uv, 2);
+    take("Cv", known.color, 3);
+    take("attributes", in.has("attributes"), known.attributes.size());
+    lines.surface_values.reserve(rows * columns);
+    for (std::size_t i = 0; i < rows; ++i) {
+        for (const auto& [begin, count] : arrays) {
+            const auto row = values.begin() + static_cast<std::ptrdiff_t>(begin + i * count);
+            lines.surface_values.insert(lines.surface_values.end(), row, row + static_cast<std::ptrdiff_t>(count));
+        }
+    }
+}
+
 void read_chains(const ArrayReader& in, FoundLines& lines) {
     auto& runs = lines.runs.runs;
     std::vector<std::uint64_t> first;
@@ -340,6 +376,7 @@ LinesFile read_lines_file(const std::string& path) {
     LinesFile result;
     read_picture(in, data, result.lines);
     read_pieces(in, result.lines);
+    read_surface_values(in, data, result.lines);
     read_chains(in, result.lines);
     if (in.has("surface")) {
         KeptSurface& surface = result.surface;

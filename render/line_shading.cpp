@@ -47,6 +47,16 @@ std::vector<ObjectOfLines> objects_of(const Frame& frame) {
     return objects;
 }
 
+/// The curvature of each object's mesh.
+std::vector<const MeshCurvature*> curvatures_of(const Frame& frame, SceneCurvatures& curvatures, int threads) {
+    std::vector<const MeshCurvature*> of_objects;
+    for (const SceneObject& object : frame.scene->objects) {
+        of_objects.push_back(&curvatures.of(frame.scene->meshes[object.mesh], object.mesh, frame.scene->meshes.size(),
+                                            frame.criteria.cos_crease_angle, threads));
+    }
+    return of_objects;
+}
+
 }  // namespace
 
 FoundLines found_lines(LineDrawing drawing, const Frame& frame, int threads) {
@@ -79,7 +89,11 @@ FoundLines found_lines(LineDrawing drawing, const Frame& frame, int threads) {
     if (frame.scene->finds_all) needs.normals = needs.chains = true;
     needs.chains = needs.chains || frame.scene->names_lines;
     if (lines.has_smooth_contours) needs.apart_px = SmoothContours::kApartPx;
-    find_sides_and_runs(drawing, frame.surfaces, frame.criteria.cos_crease_angle, needs, threads, lines);
+    SceneCurvatures of_frame;
+    std::vector<const MeshCurvature*> curvatures;
+    if (needs.surface.kr)
+        curvatures = curvatures_of(frame, frame.prepared != nullptr ? *frame.prepared->curvatures : of_frame, threads);
+    find_sides_and_runs(drawing, frame.surfaces, frame.criteria.cos_crease_angle, needs, curvatures, threads, lines);
     return lines;
 }
 

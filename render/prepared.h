@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "lines/mesh_curvature.h"
 #include "view/surface_set.h"
 
 namespace burin {
@@ -16,6 +18,8 @@ struct PreparedScene {
     /// Triangles that may pass through each other: the only ones that are then looked at for hidden intersections. Not
     /// set: each frame searches for them.
     std::optional<std::vector<SurfacePair>> intersecting_pairs;
+    /// How smooth surfaces bend: made when a sheet first reads it.
+    std::shared_ptr<SceneCurvatures> curvatures = std::make_shared<SceneCurvatures>();
 };
 
 }  // namespace burin

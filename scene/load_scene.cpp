@@ -12,9 +12,10 @@
 #include "base/interrupt.h"
 #include "mesh/model.h"
 #include "mesh/text_scan.h"
+#include "scene/missing_attributes.h"
 #include "scene/object_names.h"
 #include "scene/scene_description.h"
-#include "shading/sheet/style_sheet.h"
+#include "shading/sheet/sheet_attributes.h"
 
 namespace burin {
 namespace {
@@ -60,6 +61,8 @@ class SceneLoader {
         scene_.gbuffer = from_.gbuffer;
         scene_.zbuffer = from_.zbuffer;
         scene_.wire = from_.wire;
+        if (from_.sheet) read_attributes_ = attributes_named_in(*from_.sheet);
+        kept_attributes_ = options.keeps_attributes ? AttributeWish::all() : read_attributes_;
         for (std::uint32_t i = 0; i < from_.materials.size(); ++i)
             material_numbers_.emplace(from_.materials[i].name, i);
     }
@@ -88,6 +91,8 @@ class SceneLoader {
         if (scene_.cameras.empty()) scene_.cameras.emplace_back();
         check_highlights();
         draw_lines_without_polygons(scene_);
+        for (std::string& note : notes_on_missing_attributes(scene_, read_attributes_, attribute_names_))
+            scene_.notes.push_back(std::move(note));
         return std::move(scene_);
     }
 
@@ -176,7 +181,8 @@ class SceneLoader {
     }
 
     LoadedModel read(const ObjectDescription& object, SubdivisionScheme scheme) {
-        Model model = read_model(object.file, {object.subdivide, scheme, &budget_, threads_, strict_});
+        Model model =
+            read_model(object.file, {object.subdivide, scheme, &budget_, threads_, strict_, kept_attributes_});
         if (files_read_ != nullptr) {
             files_read_->push_back(object.file);
             files_read_->insert(files_read_->end(), model.other_files.begin(), model.other_files.end());
@@ -207,6 +213,10 @@ class SceneLoader {
         for (Mesh& mesh : model.meshes) scene_.meshes.push_back(std::move(mesh));
         for (Material& material : model.materials) scene_.materials.push_back(std::move(material));
         loaded.objects = std::move(model.objects);
+        for (std::string& name : model.attribute_names) {
+            if (std::find(attribute_names_.begin(), attribute_names_.end(), name) == attribute_names_.end())
+                attribute_names_.push_back(std::move(name));
+        }
         scene_.skipped_primitives += model.skipped_primitives;
         scene_.non_finite_polygons += model.non_finite_polygons;
         for (std::string& note : model.notes) {
@@ -258,6 +268,8 @@ class SceneLoader {
     std::map<std::string, std::uint32_t, std::less<>> material_numbers_;  // of those of the scene file
     std::map<std::tuple<std::string, int, SubdivisionScheme>, std::shared_ptr<LoadedModel>> files_;
     std::uint64_t polygons_ = 0;
+    AttributeWish read_attributes_, kept_attributes_;  // by the sheet; of files
+    std::vector<std::string> attribute_names_;         // of all files, if any are kept
     std::vector<CameraSettings> file_cameras_;
 };
 

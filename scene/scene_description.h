@@ -75,9 +75,10 @@ void use_sheet(SceneDescription& scene, std::shared_ptr<const StyleSheet> sheet)
 
 /// How to load a scene.
 struct LoadOptions {
-    int threads = 1;       ///< 0 = all cores. Changes no result.
-    bool strict = false;   ///< refuses a model of which a reader would leave a part out with a note
-    ModelBudget budget{};  ///< what shapes, subdivisions and instances may take
+    int threads = 1;                ///< 0 = all cores. Changes no result.
+    bool strict = false;            ///< refuses a model of which a reader would leave a part out with a note
+    bool keeps_attributes = false;  ///< of vertices, all that files have; else what the sheet reads
+    ModelBudget budget{};           ///< what shapes, subdivisions and instances may take
 };
 
 /// Loads the models that a description names, each file once, and makes its shapes, one after the other. Throws

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace burin {
-namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-}  // namespace
+namespace {}  // namespace
 
 glm::dvec2 EllipseArc::at(double share) const {
     const double angle = begin + sweep * share;
@@ -16,7 +13,7 @@ glm::dvec2 EllipseArc::at(double share) const {
 }
 
 EllipseArc ellipse_of_arc(glm::dvec2 start, const PathStep& arc) {
-    const double turn = arc.b.x * kPi / 180;
+    const double turn = arc.b.x * std::numbers::pi / 180;
     const glm::dvec2 x_way(std::cos(turn), std::sin(turn)), y_way(-x_way.y, x_way.x);
     glm::dvec2 radii = glm::max(glm::abs(arc.a), glm::dvec2(1e-9));
     // Where the ellipse is a circle of radius 1 around its centre.
@@ -39,14 +36,15 @@ EllipseArc ellipse_of_arc(glm::dvec2 start, const PathStep& arc) {
     const glm::dvec2 from = -half - to_center, to = half - to_center;
     ellipse.begin = std::atan2(from.y, from.x);
     ellipse.sweep = std::atan2(to.y, to.x) - ellipse.begin;
-    if (arc.is_clockwise && ellipse.sweep < 0) ellipse.sweep += 2 * kPi;
-    if (!arc.is_clockwise && ellipse.sweep > 0) ellipse.sweep -= 2 * kPi;
+    if (arc.is_clockwise && ellipse.sweep < 0) ellipse.sweep += 2 * std::numbers::pi;
+    if (!arc.is_clockwise && ellipse.sweep > 0) ellipse.sweep -= 2 * std::numbers::pi;
     return ellipse;
 }
 
 std::vector<PathStep> cubics_of_arc(glm::dvec2 start, const PathStep& arc) {
     const EllipseArc ellipse = ellipse_of_arc(start, arc);
-    const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(ellipse.sweep) / (0.5 * kPi) - 1e-6)));
+    const int parts =
+        std::max(1, static_cast<int>(std::ceil(std::abs(ellipse.sweep) / (0.5 * std::numbers::pi) - 1e-6)));
     const double reach = 4.0 / 3 * std::tan(ellipse.sweep / parts / 4);
     const auto tangent = [&](double share) {
         const double angle = ellipse.begin + ellipse.sweep * share;

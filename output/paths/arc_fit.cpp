@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -11,10 +12,9 @@
 namespace burin {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr std::size_t kLeastPoints = 7;
 /// Parts that turn by less are cubics: of a short arc no ellipse can be told.
-constexpr double kLeastTurn = kPi / 3;
+constexpr double kLeastTurn = std::numbers::pi / 3;
 
 struct Ellipse {
     glm::dvec2 center{0.0};
@@ -77,7 +77,7 @@ std::optional<Ellipse> fitted_ellipse(std::span<const glm::dvec2> points) {
     Ellipse ellipse;
     ellipse.center = mean + center * extent;
     ellipse.radii = {extent * std::sqrt(level / first), extent * std::sqrt(level / second)};
-    ellipse.turn_deg = turn * 180 / kPi;
+    ellipse.turn_deg = turn * 180 / std::numbers::pi;
     return ellipse;
 }
 
@@ -95,10 +95,11 @@ bool fit_arcs(const SmoothPart& part, std::vector<PathStep>& steps) {
         if (here * turn < 0 && std::abs(here) > 0.02) return false;
         turn += here;
     }
-    if (std::abs(turn) < kLeastTurn || std::abs(turn) > 2.1 * kPi) return false;
+    if (std::abs(turn) < kLeastTurn || std::abs(turn) > 2.1 * std::numbers::pi) return false;
     const auto ellipse = fitted_ellipse(points);
     if (!ellipse || std::max(ellipse->radii[0], ellipse->radii[1]) > 1e5) return false;
-    const double sine = std::sin(ellipse->turn_deg * kPi / 180), cosine = std::cos(ellipse->turn_deg * kPi / 180);
+    const double sine = std::sin(ellipse->turn_deg * std::numbers::pi / 180),
+                 cosine = std::cos(ellipse->turn_deg * std::numbers::pi / 180);
     // The angle on the ellipse, as its parameter.
     const auto angle_of = [&](glm::dvec2 p) {
         const glm::dvec2 off = p - ellipse->center;
@@ -115,8 +116,8 @@ bool fit_arcs(const SmoothPart& part, std::vector<PathStep>& steps) {
     }
     double sweep = 0;
     for (std::size_t i = 1; i < points.size(); ++i)
-        sweep += std::remainder(angle_of(points[i]) - angle_of(points[i - 1]), 2 * kPi);
-    const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(sweep) / (0.5 * kPi) - 0.05)));
+        sweep += std::remainder(angle_of(points[i]) - angle_of(points[i - 1]), 2 * std::numbers::pi);
+    const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(sweep) / (0.5 * std::numbers::pi) - 0.05)));
     const double begin = angle_of(points.front());
     std::vector<PathStep> arcs;
     std::vector<glm::dvec2> places = {points.front()};

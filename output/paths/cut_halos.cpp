@@ -146,7 +146,8 @@ class HaloCutter {
         if (!was_erased) add(number, begin, end, begin_px, out, is_cut);
     }
 
-    void add(std::size_t number, HaloPlace from, HaloPlace to, double at_px, InkedLines& out, bool is_cut = true) const {
+    void add(std::size_t number, HaloPlace from, HaloPlace to, double at_px, InkedLines& out,
+             bool is_cut = true) const {
         InkStroke stroke = lines_.strokes[number];
         const std::span<const InkPoint> points = lines_.points_of(stroke);
         stroke.first_point = out.points.size();

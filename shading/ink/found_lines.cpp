@@ -9,7 +9,8 @@
 namespace burin {
 
 void find_sides_and_runs(const LineDrawing& drawing, const SurfaceSet& surfaces, double cos_crease_angle,
-                         const FoundLinesNeeds& needs, int threads, FoundLines& lines) {
+                         const FoundLinesNeeds& needs, std::span<const MeshCurvature* const> curvatures, int threads,
+                         FoundLines& lines) {
     const LineDrawing::Lists visible = drawing.visible();
     lines.runs = runs_of(visible, drawing.behind(), features_of(drawing.whole_lines()), surfaces,
                          {needs.apart_px, needs.chains});
@@ -23,11 +24,20 @@ void find_sides_and_runs(const LineDrawing& drawing, const SurfaceSet& surfaces,
     lines.has_chains = needs.chains;
     lines.has_normals = needs.normals;
     lines.sides.resize(lines.runs.pieces.size());
+    lines.surface = needs.surface;
+    const std::size_t columns = needs.surface.column_count();
+    lines.surface_values.resize(2 * columns * lines.sides.size());
     const LineSidesFinder finder(surfaces, cos_crease_angle);
+    const SurfaceValues values(surfaces, needs.surface, curvatures);
     constexpr std::size_t kChunk = 256;
     parallel_for((lines.sides.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
-        for (std::size_t i = chunk * kChunk; i < std::min(lines.sides.size(), (chunk + 1) * kChunk); ++i)
-            lines.sides[i] = finder.sides_of(lines.runs.pieces[i].piece, needs.normals);
+        for (std::size_t i = chunk * kChunk; i < std::min(lines.sides.size(), (chunk + 1) * kChunk); ++i) {
+            FrontFace front;
+            const LinePiece& piece = lines.runs.pieces[i].piece;
+            lines.sides[i] = finder.sides_of(piece, needs.normals, columns > 0 ? &front : nullptr);
+            if (columns > 0)
+                values.write(piece, front, std::span(lines.surface_values).subspan(2 * columns * i, 2 * columns));
+        }
     });
 }
 

@@ -3,12 +3,14 @@
 #include <array>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "lines/line_runs.h"
 #include "mesh/polygon_soup.h"
 #include "shading/ink/line_sides.h"
+#include "shading/ink/surface_values.h"
 #include "shading/line_style.h"
 #include "shading/surface/light.h"
 
@@ -27,6 +29,8 @@ struct ObjectOfLines {
 struct FoundLines {
     LineRuns runs;
     std::vector<LineSides> sides;       ///< of each piece
+    SurfaceNeeds surface;               ///< which values of surfaces are known
+    std::vector<float> surface_values;  ///< for each piece the columns of `surface` at its begin, then at its end
     std::vector<LinePiece> boundaries;  ///< where surfaces end and nothing is drawn
     LineClassSet classes;               ///< that were looked for
     int most_invisibility = 0;          ///< that was looked for
@@ -52,12 +56,14 @@ struct FoundLines {
 /// What is to be known of lines.
 struct FoundLinesNeeds {
     bool normals = false, chains = false;
+    SurfaceNeeds surface;
     double apart_px = 0;  ///< PieceLinking::apart_px
 };
 
 /// Makes runs of the lines of a picture, and finds what is beside them. `objects` and what describes the picture are
-/// filled in by the caller. `drawing` has what was asked for.
+/// filled in by the caller. `drawing` has what was asked for. `curvatures`: of each instance's mesh, if `kr` is needed.
 void find_sides_and_runs(const LineDrawing& drawing, const SurfaceSet& surfaces, double cos_crease_angle,
-                         const FoundLinesNeeds& needs, int threads, FoundLines& lines);
+                         const FoundLinesNeeds& needs, std::span<const MeshCurvature* const> curvatures, int threads,
+                         FoundLines& lines);
 
 }  // namespace burin

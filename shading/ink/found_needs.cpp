@@ -13,6 +13,7 @@ FoundLinesNeeds found_needs_of(const SheetNeeds& sheet) {
     needs.normals =
         std::any_of(std::begin(kOfNormals), std::end(kOfNormals), [&](Variable v) { return sheet.variables.has(v); });
     needs.chains = sheet.chains;
+    needs.surface = sheet.surface;
     return needs;
 }
 
@@ -30,6 +31,11 @@ std::string missing_for(const StyleSheet& style, const SheetNeeds& sheet, const 
     add(sheet.sides && !lines.has_beyond, "the surfaces behind lines");
     add(needs.normals && !lines.has_normals, "normals");
     add(needs.chains && !lines.has_chains, "chains");
+    add(needs.surface.kr && !lines.surface.kr, "curvature (kr)");
+    add(needs.surface.uv && !lines.surface.uv, "texture coordinates (u, v)");
+    add(needs.surface.color && !lines.surface.color, "colours of vertices (Cv)");
+    for (const std::string& name : needs.surface.attributes)
+        add(!lines.surface.column_of_attribute(name), "the attribute '" + name + "'");
     const auto differs = [](double a, double b) { return std::abs(a - b) > 1e-9; };
     add(style.crease_angle_deg && (differs((*style.crease_angle_deg)[0], lines.crease_angle_deg[0]) ||
                                    differs((*style.crease_angle_deg)[1], lines.crease_angle_deg[1])),

@@ -125,15 +125,21 @@ float LineColumns::gap_at(const LineSample& sample) const {
 }
 
 void LineColumns::fill(std::span<const LineSample> samples, const VariableSet& variables, const SampleVariant& variant,
-                       SampleColumns& columns) const {
+                       SampleColumns& columns, std::span<const std::string> attributes) const {
     const std::size_t n = samples.size();
     columns.columns_ = {};
     std::size_t count = 0;
     for (std::size_t v = 0; v < kVariableCount; ++v) {
         for (std::size_t k = 0; k < 3; ++k) count += variables.has(static_cast<V>(v), k) ? 1 : 0;
     }
-    columns.numbers_.resize(count * n);
+    columns.numbers_.resize((count + attributes.size()) * n);
     float* next = columns.numbers_.data();
+    columns.attributes_.clear();
+    for (const std::string& name : attributes) {
+        const std::optional<std::size_t> column = lines_.surface.column_of_attribute(name);
+        columns.attributes_.push_back(next);
+        for (const LineSample& sample : samples) *next++ = column ? surface_value(sample, *column) : 0.0f;
+    }
     for (std::size_t v = 0; v < kVariableCount; ++v) {
         for (std::size_t k = 0; k < 3; ++k) {
             if (!variables.has(static_cast<V>(v), k)) continue;
@@ -184,7 +190,34 @@ void LineColumns::fill(std::span<const LineSample> samples, const VariableSet& v
     out.each(V::width_px, [&](std::size_t) { return lines_.width_px; });
     out.each(V::height_px, [&](std::size_t) { return lines_.height_px; });
     fill_sides(samples, out);
+    fill_surface(samples, out);
     fill_chains(samples, variables, out);
+}
+
+float LineColumns::surface_value(const LineSample& sample, std::size_t column) const {
+    const std::size_t columns = lines_.surface.column_count();
+    const float* const begin = &lines_.surface_values[2 * columns * sample.piece + column];
+    const double a = begin[0], b = begin[columns];
+    double share = sample.share;
+    if (!lines_.projection.orthographic) {
+        // What changes linearly in space does so on the screen when it is multiplied by the nearness.
+        const LinePiece& p = runs_.pieces[sample.piece].piece;
+        const double from = (1 - share) * static_cast<double>(p.nearness_from);
+        const double to = share * static_cast<double>(p.nearness_to);
+        if (from + to > 0) share = to / (from + to);
+    }
+    return static_cast<float>(a + share * (b - a));
+}
+
+void LineColumns::fill_surface(std::span<const LineSample> samples, Columns& out) const {
+    for (const V variable : {V::kr, V::u, V::v, V::Cv}) {
+        for (std::size_t k = 0; k < component_count(row_of(variable).type); ++k) {
+            const std::optional<std::size_t> column = lines_.surface.column_of(variable, k);
+            float* const to = out.place(variable, k);
+            for (std::size_t i = 0; to != nullptr && i < samples.size(); ++i)
+                to[i] = column ? surface_value(samples[i], *column) : 0.0f;
+        }
+    }
 }
 
 void LineColumns::fill_sides(std::span<const LineSample> samples, Columns& out) const {

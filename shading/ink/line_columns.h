@@ -35,10 +35,13 @@ class SampleColumns {
   public:
     const VariableColumns& columns() const { return columns_; }
     const float* of(Variable v, std::size_t component = 0) const { return columns_.of(v, component); }
+    /// Of the attributes that fill() was called with.
+    const float* of_attribute(std::size_t number) const { return attributes_[number]; }
 
   private:
     friend class LineColumns;
     VariableColumns columns_;
+    std::vector<const float*> attributes_;
     std::vector<float> numbers_;
 };
 
@@ -50,9 +53,9 @@ class LineColumns {
 
     const LineRuns& runs() const { return runs_; }
     const FoundLines& lines() const { return lines_; }
-    /// Fills columns of the variables, for each sample a number.
+    /// Fills columns of the variables, for each sample a number, and of the attributes with these names.
     void fill(std::span<const LineSample> samples, const VariableSet& variables, const SampleVariant& variant,
-              SampleColumns& out) const;
+              SampleColumns& out, std::span<const std::string> attributes = {}) const;
 
     std::uint32_t object_of(std::size_t piece) const { return lines_.sides[piece].front_object; }
     /// Hashes what an object, a chain is; the same in all frames.
@@ -81,6 +84,9 @@ class LineColumns {
     const LineSides& sides_of(std::size_t piece) const { return lines_.sides[piece]; }
     void fill_sides(std::span<const LineSample> samples, Columns& out) const;
     void fill_chains(std::span<const LineSample> samples, const VariableSet& variables, Columns& out) const;
+    void fill_surface(std::span<const LineSample> samples, Columns& out) const;
+    /// A value of the front surface, which changes linearly in space.
+    float surface_value(const LineSample& sample, std::size_t column) const;
     float gap_at(const LineSample& sample) const;
     /// In view space.
     glm::dvec3 position_of(const LineSample& sample) const;

@@ -28,7 +28,7 @@ double LineSidesFinder::facing(SurfaceId s, glm::dvec2 place) const {
     return std::abs(glm::dot(surfaces_.view_normal(s), unit(direction)));
 }
 
-LineSides LineSidesFinder::sides_of(const LinePiece& piece, bool has_normals) const {
+LineSides LineSidesFinder::sides_of(const LinePiece& piece, bool has_normals, FrontFace* front) const {
     LineSides sides;
     if (piece.line.is_none()) return sides;
     sides.is_beyond = piece.occludes;
@@ -39,6 +39,7 @@ LineSides LineSidesFinder::sides_of(const LinePiece& piece, bool has_normals) co
         at = at_meeting(piece);
         if (has_normals) set_flat_normals(piece, at, sides);
     }
+    if (front != nullptr) *front = {at.front, at.front_edge};
     if (sides.front_object == 0) sides.front_object = surfaces_.object_id(at.front);
     sides.other_object = surfaces_.object_id(at.other);
     sides.front_material = surfaces_.material_id(at.front);
@@ -90,7 +91,7 @@ LineSidesFinder::Surfaces LineSidesFinder::at_edge(const LinePiece& piece, LineS
     }
     if (count == 2 && covers(piece, second, best)) std::swap(best, second);
     if (count == 2) add_fold(piece, best, second, sides);
-    const Surfaces at{best.surface, piece.occludes ? numbers_.of(piece.beyond) : second.surface};
+    const Surfaces at{best.surface, piece.occludes ? numbers_.of(piece.beyond) : second.surface, best.half_edge};
     if (!has_normals) return at;
     set_flat_normals(piece, at, sides);
     const bool is_contour = piece.occludes && count == 2;

@@ -25,6 +25,12 @@ struct LineSides {
     DepthPlane front_plane, beyond_plane;  ///< of the surfaces; of what is not there, all is 0
 };
 
+/// Where the front side of a piece is on the mesh.
+struct FrontFace {
+    SurfaceId surface;                 ///< background: nothing is there
+    HalfEdge half_edge = kNoHalfEdge;  ///< of that triangle, which the line is; none: it lies on the triangle
+};
+
 /// LineSidesFinder says what is on the two sides of pieces, from the meshes. It may be used by several threads.
 class LineSidesFinder {
   public:
@@ -33,7 +39,8 @@ class LineSidesFinder {
         : surfaces_(surfaces), numbers_(surfaces), cos_crease_angle_(cos_crease_angle) {}
 
     /// `has_normals`: whether normals are asked for; else they stay 0.
-    LineSides sides_of(const LinePiece& piece, bool has_normals) const;
+    /// `front`: gets where the front side is, unless it is nullptr.
+    LineSides sides_of(const LinePiece& piece, bool has_normals, FrontFace* front = nullptr) const;
 
   private:
     /// A face at an edge: a half-edge of it.
@@ -45,6 +52,7 @@ class LineSidesFinder {
     /// The surfaces at both sides; kBackground: nothing.
     struct Surfaces {
         SurfaceId front, other;
+        HalfEdge front_edge = kNoHalfEdge;
     };
     Surfaces at_edge(const LinePiece& piece, LineSides& sides, bool has_normals) const;
     Surfaces at_meeting(const LinePiece& piece) const;

@@ -12,7 +12,9 @@ namespace {
 
 VariableSet inputs_of(const ExpressionProgram& program) {
     VariableSet set;
-    for (const ExpressionInput& input : program.inputs()) set.add(*variable_named(input.name), input.component);
+    for (const ExpressionInput& input : program.inputs()) {
+        if (!input.is_attribute) set.add(*variable_named(input.name), input.component);
+    }
     return set;
 }
 
@@ -86,10 +88,13 @@ StrokeValues::StrokeValues(const LineColumns& lines, const CompiledStyle& style,
 void StrokeValues::run(const ExpressionProgram& program, std::span<const LineSample> samples,
                        std::size_t column_count) {
     const bool is_ink = &program == &style_.ink;
-    lines_.fill(samples, is_ink ? ink_inputs_ : chain_inputs_, variant_, columns_);
+    const std::span<const std::string> attributes = is_ink ? std::span(style_.attributes) : std::span<std::string>();
+    lines_.fill(samples, is_ink ? ink_inputs_ : chain_inputs_, variant_, columns_, attributes);
     inputs_.clear();
+    std::size_t attribute = 0;  // the style has them in the order of the inputs
     for (const ExpressionInput& input : program.inputs())
-        inputs_.push_back(columns_.of(*variable_named(input.name), input.component));
+        inputs_.push_back(input.is_attribute ? columns_.of_attribute(attribute++)
+                                             : columns_.of(*variable_named(input.name), input.component));
     results_.resize(std::max(results_.size(), column_count));
     result_places_.clear();
     for (std::size_t k = 0; k < column_count; ++k) {

@@ -145,6 +145,7 @@ std::shared_ptr<const LineTest> test_named(const SheetText& name, const LineShad
 VariableSet variables_of(const ExpressionProgram& program) {
     VariableSet set;
     for (const ExpressionInput& input : program.inputs()) {
+        if (input.is_attribute) continue;
         if (const auto variable = variable_named(input.name)) set.add(*variable, input.component);
     }
     return set;
@@ -206,6 +207,9 @@ CompiledStyle compile_style(const SheetStyle& style, const ExpressionSymbols& sy
     if (style.shader) {
         result.shader = shader_named(*style.shader, context.shaders);
         result.variables |= result.shader->needs();
+    }
+    for (const ExpressionInput& input : result.ink.inputs()) {
+        if (input.is_attribute) result.attributes.push_back(input.name);
     }
     if (result.has_wobble && result.wobble_anchor == WobbleAnchor::object) {
         result.variables.add(Variable::PO);

@@ -98,12 +98,16 @@ CompiledSheet::CompiledSheet(const StyleSheet& sheet, const SheetContext& contex
         needs_.variables |= matched;
         needs_.variables |= style.variables;
         if (set.test) needs_.variables |= set.test->needs();
+        for (const std::string& name : style.attributes) needs_.surface.add_attribute(name);
         if (style.needs_chains) needs_.chains = true;
         if (style.settings.side != StrokeSide::both) needs_.one_sided = true;
         needs_.most_reach_px = std::max(needs_.most_reach_px, style.most_reach_px);
     }
     if (needs_.variables.has(Variable::qi)) needs_.tells_invisibility = true;
     needs_.tells_transmission = needs_.variables.has(Variable::transmission);
+    needs_.surface.kr = needs_.variables.has(Variable::kr);
+    needs_.surface.uv = needs_.variables.has(Variable::u) || needs_.variables.has(Variable::v);
+    needs_.surface.color = needs_.variables.has(Variable::Cv);
     needs_.sides = needs_.variables.has_tier(VariableTier::sides);
     if (needs_.variables.has_tier(VariableTier::chains)) needs_.chains = true;
 }

@@ -12,6 +12,7 @@
 #include "lines/line_class.h"
 #include "shading/expression/program.h"
 #include "shading/sheet/style_sheet.h"
+#include "shading/sheet/surface_needs.h"
 #include "shading/sheet/variables.h"
 
 // A style sheet made ready for the lines of a picture: texts become programs, globs become bits per object.
@@ -83,7 +84,8 @@ struct CompiledStyle {
         return !shader && is_constant(InkValue::width) && is_constant(InkValue::opacity) &&
                is_constant(InkValue::color);
     }
-    VariableSet variables;  ///< of both programs and the shader, and what carrying out the style reads
+    VariableSet variables;                ///< of both programs and the shader, and what carrying out the style reads
+    std::vector<std::string> attributes;  ///< that the ink reads
     bool needs_chains = false;
     float most_reach_px = 0;  ///< how far from a line its ink may be: half its width, and what moves it
 };
@@ -95,6 +97,7 @@ struct SheetNeeds {
     bool tells_invisibility = false;  ///< more must be known than whether a line is hidden
     bool tells_transmission = false;  ///< what transparent surfaces let through is read
     VariableSet variables;            ///< of selects and styles
+    SurfaceNeeds surface;             ///< curvature (tier 3), and values of the file (tier 5)
     bool sides = false;               ///< something of the surfaces beside and behind a line (tier 1)
     bool chains = false;              ///< chains (tier 2, or strokes are moved or cut)
     bool one_sided = false;           ///< strokes are drawn on one side of their lines

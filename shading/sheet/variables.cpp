@@ -84,6 +84,14 @@ constexpr std::array<VariableRow, kVariableCount> kTable = {{
     {V::closed, "closed", number, "", "0, 1", R::chain, T::chains, K::none, "whether the chain is a loop"},
     {V::direction, "direction", number, "degrees", "0 to 180", R::piece, T::piece, K::none,
      "of the line on the screen; 0 = level, counter-clockwise"},
+    {V::kr, "kr", number, "1/world", "", R::sample, T::curvature, K::none,
+     "curvature of the front surface towards the eye; > 0: it bends away from the eye, as a ball; 0 where it is flat"},
+    {V::u, "u", number, "the file's", "", R::sample, T::attributes, K::none,
+     "first texture coordinate of the front polygon; 0 if there is none"},
+    {V::v, "v", number, "the file's", "", R::sample, T::attributes, K::none,
+     "second texture coordinate of the front polygon; 0 if there is none"},
+    {V::Cv, "Cv", color, "linear RGB", "", R::sample, T::attributes, K::none,
+     "colour of the vertices of the front polygon; black if there is none"},
     {V::rand_object, "rand_object", number, "", "[0, 1)", R::piece, T::piece, K::none,
      "a random number of the object, the same in all frames"},
     {V::rand_chain, "rand_chain", number, "", "[0, 1)", R::chain, T::chains, K::none, "a random number of the chain"},
@@ -104,9 +112,9 @@ constexpr bool is_in_order() {
 }
 static_assert(is_in_order());
 
-constexpr auto kLater = std::to_array<std::string_view>(
-    {"kr", "k1", "k2", "valley", "ridge", "suggestive", "light", "shadow", "lit", "u", "v", "Cv", "attr", "isophote",
-     "is_suggestive", "is_ridge", "is_valley", "is_light", "is_shadow"});
+constexpr auto kLater =
+    std::to_array<std::string_view>({"k1", "k2", "valley", "ridge", "suggestive", "light", "shadow", "lit",
+                                     "is_suggestive", "is_ridge", "is_valley", "is_light", "is_shadow"});
 
 }  // namespace
 

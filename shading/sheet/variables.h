@@ -63,6 +63,10 @@ enum class Variable : std::uint8_t {
     end_distance,
     closed,
     direction,
+    kr,
+    u,
+    v,
+    Cv,
     rand_object,
     rand_chain,
     rand_set,
@@ -81,9 +85,11 @@ constexpr Variable is_class(LineClass c) {
 
 /// Where a variable's values come from, from what is known anyway to what costs most.
 enum class VariableTier : std::uint8_t {
-    piece,   ///< 0: known of each piece and of each place on it
-    sides,   ///< 1: from the surfaces at its two sides and behind it
-    chains,  ///< 2: from the chain that the piece is a part of
+    piece,           ///< 0: known of each piece and of each place on it
+    sides,           ///< 1: from the surfaces at its two sides and behind it
+    chains,          ///< 2: from the chain that the piece is a part of
+    curvature,       ///< 3: from the curvature of smooth surfaces
+    attributes = 5,  ///< 5: from what the file of a model gives at its vertices
 };
 
 enum class NameKind : std::uint8_t { none, line_class, object, material };

@@ -171,6 +171,17 @@ class LibraryCaller {
         mesh.object_count = mesh.polygon_objects == nullptr ? 0 : 3;
         if (random_.integer(0, 1) == 0) mesh.object_names = names;
         mesh.marked_edges = marks.data(), mesh.marked_edge_count = count(marks.size() / 2);
+        // Attributes that are there have as many numbers as the counts say that they need.
+        const std::vector<float> values(3 * std::max(corners.size(), points.size()) + 3,
+                                        static_cast<float>(random_.real(-2, 2)));
+        const float* const arrays[] = {values.data(), random_.integer(0, 9) == 0 ? nullptr : values.data()};
+        const bool fits = mesh.corner_count <= corners.size() && mesh.point_count <= points.size() / 3;
+        if (fits && random_.integer(0, 1) == 0) mesh.corner_uv = values.data();
+        if (fits && random_.integer(0, 1) == 0) mesh.point_colors = values.data();
+        if (fits && random_.integer(0, 2) == 0) {
+            mesh.attribute_names = names, mesh.point_attributes = arrays;
+            mesh.attribute_count = static_cast<std::uint64_t>(random_.integer(0, 2));
+        }
         return burin_add_mesh(scene_, &mesh);
     }
     int add_object() {

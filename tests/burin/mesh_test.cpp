@@ -57,6 +57,53 @@ TEST(LibraryMesh, MaterialsGiveThePictureOfTheFile) {
     EXPECT_TRUE(exr_of(scene) == program_exr(arrays, {"--set", "surfaces.shading=lambert"}));
 }
 
+/// What a sheet reads of a mesh is what it would read of a file.
+TEST(LibraryMesh, AttributesGiveThePictureOfTheFile) {
+    const std::vector<float> points{0, 0, 0, 1, 0, 0, 2, 0, -1, 0, 1, 0, 1, 1, 0, 2, 1, -1};
+    const std::vector<std::int32_t> corners{0, 1, 4, 3, 1, 2, 5, 4}, sizes{4, 4};
+    const std::vector<float> uv{0, 0, 1, 0, 1, 1, 0, 1, 5, 0, 6, 0, 6, 1, 5, 1};
+    const std::vector<float> colors{1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0, 0, 1}, heat{1, 2, 3, 4, 5, 6};
+    const std::string by_uv =
+        "style_version = 1\n[[set]]\nname = \"all\"\nclasses = [\"border\", \"crease\"]\nstyle = \"ink\"\n"
+        "[style.ink]\ncolor = \"=Cv\"\nwidth = \"=1 + u + 2*v\"\n";
+    std::string obj;
+    for (std::size_t i = 0; i < 18; i += 3) {
+        obj += "v";
+        for (const std::vector<float>* const numbers : {&points, &colors}) {
+            for (std::size_t k = i; k < i + 3; ++k) obj += ' ' + std::to_string((*numbers)[k]);
+        }
+        obj += '\n';
+    }
+    for (std::size_t i = 0; i < uv.size(); i += 2)
+        obj += "vt " + std::to_string(uv[i]) + ' ' + std::to_string(uv[i + 1]) + '\n';
+    obj += "f 1/1 2/2 5/3 4/4\nf 2/5 3/6 6/7 5/8\n";
+    const TemporaryFolder folder;
+    folder.write("model.obj", obj);
+    folder.write("sheet.toml", by_uv);
+    const ProgramResult result = run_burin(folder.path(), {"render", "model.obj", "-o", "model.exr", "--size",
+                                                           "200x150", "-q", "--style", "./sheet.toml"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const Mesh mesh{.name = "model",
+                    .points = points,
+                    .corners = corners,
+                    .polygon_sizes = sizes,
+                    .corner_uv = uv,
+                    .point_colors = colors,
+                    .attributes = {{"heat", heat}}};
+    Scene scene;
+    scene.add(mesh);
+    scene.set_style(by_uv);
+    const std::string with_values = exr_of(scene);
+    EXPECT_TRUE(with_values == read_file(folder.file("model.exr")));
+    // A file that is loaded before the sheet is known keeps its values, too.
+    Scene loaded;
+    loaded.add_file(folder.file("model.obj"));
+    loaded.set_style(by_uv);
+    EXPECT_TRUE(exr_of(loaded) == with_values);
+    scene.set_style(by_uv + "opacity = \"=attr(\\\"heat\\\") > 3\"\n");
+    EXPECT_FALSE(exr_of(scene) == with_values);
+}
+
 TEST(LibraryMesh, PartsGiveThePictureOfTheFile) {
     Arrays arrays = cube();
     add_cube(arrays, 0.5f, 0.25f, 1, 0.25f);  // stands on it: a line of class object

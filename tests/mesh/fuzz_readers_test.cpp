@@ -112,7 +112,9 @@ void fuzz(const std::string& extension, const std::vector<std::string>& good_fil
             folder.write("model" + extension, bytes);
             const std::string what = "file " + std::to_string(file) + ", trial " + std::to_string(trial);
             try {
-                const Model model = read_model(path, {});
+                MeshOptions options;
+                if (trial % 2 == 1) options.attributes = AttributeWish::all();
+                const Model model = read_model(path, options);
                 for (const Mesh& mesh : model.meshes) test::expect_consistent(mesh, what);
                 ASSERT_FALSE(testing::Test::HasFatalFailure()) << what;
             } catch (const InputError& error) {
@@ -139,6 +141,8 @@ TEST(FuzzReaders, Obj) {
              "mtllib a.mtl\no left\nvt 0 0\nvn 0 0 1\n" + kCubeVertices +
                  "usemtl red\nf -8/1/1 -7/1/1 -6/1/1\no right\nf 1//1 2//1 \\\n3//1 7//1\nl 1 2 3\n",
              "g a b\r\n" + kCubeVertices + "f 1 2 3\r\ng c\r\nf 4 3 2 1 5\r\nf 1 1 2\r\nf 9 7 8\r\nv -1.5e-3 +2 .5",
+             "v 0 0 0 1 0 0.5\nv 1 0 0 1\nv 1 1 0 0 1 1 1\nv 0 1 0\nvt 0 0\nvt 1 .5 0\nvt 1\nf 1/1 2/2 3/3/1\n"
+             "f 1/-3 3/-2 4//2\nf 1/1 2/2 4/3 3/1\n",
          });
 }
 
@@ -167,6 +171,12 @@ TEST(FuzzReaders, Ply) {
         "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar float vertex_index\nelement vertex 3\nproperty int "
         "x\n"
         "property int y\nproperty int z\nend_header\n3 0 1 2 0 0 0 1 0 0 0 1 0");
+    files.push_back(
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float s\nproperty float x\nproperty uchar red\n"
+        "property float y\nproperty uchar green\nproperty float z\nproperty uchar blue\nproperty float t\n"
+        "property int part\nelement face 2\nproperty list uchar int vertex_indices\n"
+        "property list uchar float texcoord\nend_header\n0 0 1 0 2 0 3 1 4\n1 1 9 0 9 0 9 1 5\n"
+        "1 1 0 1 0 0 255 1 4\n0 0 7 1 7 0 7 1 3\n3 0 1 2 6 0 0 1 0 1 1\n3 0 2 3 0\n");
     fuzz(".ply", files);
 }
 
@@ -229,7 +239,17 @@ TEST(FuzzReaders, Gltf) {
         R"([{"primitives": [{"attributes": {"POSITION": 0, "JOINTS_0": 3, "WEIGHTS_0": 4}, "indices": 1, "targets": [{"POSITION": 2}]}]},
         {"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0, "extensions": {"EXT_mesh_primitive_edge_visibility": {"visibility": 5},
         "CESIUM_primitive_outline": {"indices": 1}}}, {"attributes": {"POSITION": 0}, "mode": 2}]}])";
-    fuzz(".gltf", {GltfParts{}.json(), tree.json(), sparse.json(), posed.json()});
+    a.add(ByteWriter().add<float>({1, 2, 3, 4}).bytes(), "SCALAR", 5126, 4);
+    a.add(ByteWriter().add<std::uint8_t>({0, 0, 255, 0, 255, 255, 0, 255}).bytes(), "VEC2", 5121, 4,
+          R"("normalized": true)");
+    GltfParts colored;
+    a.put_into(colored);
+    colored.scenes = R"([{"nodes": [0, 1]}])";
+    colored.nodes = R"([{"mesh": 0}, {"mesh": 1}])";
+    colored.meshes =
+        R"([{"primitives": [{"attributes": {"POSITION": 0, "COLOR_0": 4, "_UP": 8, "_WAY": 2}, "indices": 1}]},
+        {"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 9}, "indices": 1}, {"attributes": {"POSITION": 0, "COLOR_0": 2}, "mode": 5}]}])";
+    fuzz(".gltf", {GltfParts{}.json(), tree.json(), sparse.json(), posed.json(), colored.json()});
     fuzz(".glb", {GltfParts{}.as_glb(), tree.as_glb(), sparse.as_glb(), posed.as_glb()});
 }
 

@@ -387,6 +387,23 @@ TEST_F(CompressedGltf, PrimitivesThatDracoCompressedAreRead) {
     }
 }
 
+TEST_F(CompressedGltf, DracoGivesColoursToWhoAsks) {
+    DracoFile file(draco::MESH_EDGEBREAKER_ENCODING);
+    file.primitive = R"({"attributes": {"POSITION": 0, "COLOR_0": 3, "_PART": 2}, "indices": 1,
+        "extensions": {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0, "COLOR_0": 2, "_PART": 1}}}})";
+    file.finish();
+    ModelBudget budget;
+    const std::string path = folder_.write("part.glb", file.parts.as_glb());
+    EXPECT_TRUE(read_gltf(path).meshes.at(0).attributes.empty());
+    const PolygonSoup soup = read_gltf(path, budget, false, AttributeWish::all()).meshes.at(0);
+    ASSERT_EQ(soup.attributes.size(), 1u) << "four numbers are no attribute";
+    ASSERT_EQ(soup.attributes[0].rows.size(), 360u);
+    for (const std::uint32_t row : soup.attributes[0].rows) {
+        EXPECT_EQ(soup.attributes[0].row(row)[0], 1);
+        EXPECT_EQ(soup.attributes[0].row(row)[1], 0);
+    }
+}
+
 TEST_F(CompressedGltf, BrokenDracoDataAreRefused) {
     const char* const place = "meshes[0].primitives[0].extensions.KHR_draco_mesh_compression: ";
     for (const auto method : {draco::MESH_SEQUENTIAL_ENCODING, draco::MESH_EDGEBREAKER_ENCODING}) {

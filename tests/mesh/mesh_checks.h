@@ -76,6 +76,11 @@ inline void expect_consistent(const Mesh& mesh, const std::string& what) {
     const std::size_t half_edges = 3 * mesh.triangles.size();
     ASSERT_EQ(mesh.next_on_edge, link_edges_by_map(mesh.triangles)) << what;
     ASSERT_TRUE(mesh.marked.empty() || mesh.marked.size() == half_edges) << what;
+    for (const AttributeLayer& layer : mesh.attributes) {
+        ASSERT_EQ(layer.rows.size(), half_edges) << what;
+        for (const std::uint32_t row : layer.rows)
+            ASSERT_TRUE(row < layer.row_count() || row == AttributeLayer::kNoRow) << what;
+    }
     std::vector<bool> used(mesh.positions.size(), false);
     for (const auto& triangle : mesh.triangles) {
         for (const std::uint32_t v : triangle) {
