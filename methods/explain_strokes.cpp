@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/stream_store.h"
+#include "mesh/text_scan.h"
 #include "methods/abuffer.h"
 #include "shading/ink/ink_lines.h"
 #include "shading/ink/line_columns.h"
