@@ -31,6 +31,17 @@ bool is_covered(const SampleTile& samples, PixelRect rect) {
     return false;
 }
 
+/// Whether all samples of a pixel have one id, but for whether it is plain.
+bool is_all_of(const SampleTile& samples, std::uint32_t id, int x, int y) {
+    const int s = samples.samples_per_pixel;
+    std::uint32_t others = 0;
+    for (int row = y * s; row < (y + 1) * s; ++row) {
+        const std::uint32_t* const ids = &samples.ids[samples.index(x * s, row)];
+        for (int column = 0; column < s; ++column) others |= ids[column] ^ id;
+    }
+    return others >> 1 == 0;
+}
+
 }  // namespace
 
 PixelFiller::PixelFiller(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels,
@@ -222,13 +233,21 @@ void PixelFiller::put_shaded(const SampleTile& samples, PixelRect rect, int y, F
 }
 
 void PixelFiller::add_fragments(const SampleTile& samples, int x, int y) {
+    const int s = samples.samples_per_pixel;
+    if (const std::uint32_t first = samples.ids[samples.index(x * s, y * s)]; is_all_of(samples, first, x, y)) {
+        const bool is_surface = first != SampleTile::kBackground;
+        fragments_of_.push_back(is_surface ? 1 : 0);
+        if (!is_surface) return;
+        fragments_.push_back({screen_.surface_of(first >> 1), {x + 0.5, y + 0.5}});
+        samples_of_.push_back(static_cast<std::uint8_t>(s * s));
+        return;
+    }
     struct Found {
         std::uint32_t id, count;
         int columns, rows;  // sums over its samples
     };
     std::array<Found, 64> found;
     std::size_t count = 0;
-    const int s = samples.samples_per_pixel;
     for (int row = 0; row < s; ++row) {
         const std::uint32_t* const ids = &samples.ids[samples.index(x * s, y * s + row)];
         for (int column = 0; column < s; ++column) {

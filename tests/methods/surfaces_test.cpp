@@ -245,6 +245,36 @@ TEST(SurfaceShading, AFoldHasTwoNormals) {
     EXPECT_NEAR(d.at("R", 70, 100), d.at("R", 80, 120), 1e-6);
 }
 
+TEST(SurfaceShading, FaultsOfExpressionsHaveTheirPlace) {
+    struct Case {
+        const char *text, *message;
+    };
+    const Case cases[] = {
+        {"color = \"=C * depht\"", ":4:15: [surfaces] color: unknown variable 'depht', did you mean 'depth'?"},
+        {"color = \"=u\"", ":4:11: [surfaces] color: 'u' is not in this version"},
+        {"color = \"=qi\"", ":4:11: [surfaces] color: unknown variable 'qi'"},
+        {"color = \"=attr(\\\"heat\\\") * C\"", "attr"},
+        {"shading = \"hatch\"\ntone = \"=C\"", ":5:10: [surfaces] tone: a number is needed here"},
+        {"shading = \"hatch\"\nspacing = \"9000pt\"", ":5:11: [surfaces] spacing: is 12000 px"},
+        {"shading = \"toon\"\ndetail = { over = \"N\", tones = { stops = [[0, 1]] } }",
+         ":5:20: [surfaces.detail] over: a number is needed here, but the expression is a vector"},
+    };
+    for (const Case& c : cases) {
+        try {
+            drawn(kNoLines + "[surfaces]\n" + c.text + "\n" + ball(8));
+            ADD_FAILURE() << c.text;
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()).find(c.message), std::string::npos) << error.what();
+        }
+    }
+}
+
+TEST(SurfaceShading, WhatIsNoNumberIsBlackAndNoted) {
+    const Drawing d = drawn(kNoLines + "[surfaces]\ncolor = \"=rgb(1, 1, sqrt(0)/0 * 0)\"\n" + ball(32));
+    EXPECT_EQ(d.at("R", 100, 100), 0);
+    EXPECT_EQ(d.at("A", 100, 100), 1);
+}
+
 /// A plane at z = 0 that fills the picture, and a small ball in front of its middle.
 std::string ball_on_plane(double radius, double height, int rings = 200) {
     return "[surfaces]\ncolor = \"=rgb(lit, lit, lit)\"\n[[object]]\nshape = \"plane\"\nsize = [400, 400]\n"
