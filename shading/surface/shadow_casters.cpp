@@ -174,18 +174,22 @@ void ShadowCasters::add_grid(std::uint32_t number, const View& view, glm::dvec2 
     const auto for_cells = [&](std::uint32_t caster, const auto& visit) {
         Outline outline = outline_in(view, casters_[caster]);
         const std::span corners(outline.corners, static_cast<std::size_t>(outline.count));
-        double top = std::numeric_limits<double>::infinity(), bottom = -top;
+        double top = std::numeric_limits<double>::infinity(), bottom = -top, left = top, right = -top;
         for (glm::dvec2& p : corners) {
             p = (p - corner) * grid.cells_per_unit;
             top = std::min(top, p.y);
             bottom = std::max(bottom, p.y);
+            left = std::min(left, p.x);
+            right = std::max(right, p.x);
         }
         const auto cell_of = [&](double at) {
             return static_cast<std::uint32_t>(std::clamp(std::floor(at), 0.0, static_cast<double>(side - 1)));
         };
-        if (bottom < -slack || top > side + slack) return;
-        for (std::uint32_t y = cell_of(top - slack); y <= cell_of(bottom + slack); ++y) {
-            const Range range = range_in_row(corners, y - slack, y + 1 + slack);
+        if (bottom < -slack || top > side + slack || right < -slack || left > side + slack) return;
+        const std::uint32_t first = cell_of(top - slack), last = cell_of(bottom + slack);
+        for (std::uint32_t y = first; y <= last; ++y) {
+            // Of a small triangle all cells around it count.
+            const Range range = last - first < 2 ? Range{left, right} : range_in_row(corners, y - slack, y + 1 + slack);
             if (!(range.low <= side + slack && range.high >= -slack)) continue;
             for (std::uint32_t x = cell_of(range.low - slack); x <= cell_of(range.high + slack); ++x)
                 visit(y * side + x);

@@ -31,7 +31,8 @@ TEST(SurfaceKeys, EachShadingHasItsRecipe) {
     EXPECT_EQ(toon.recipe->detail->over.source.text, "facing^2");
     EXPECT_EQ(toon.recipe->detail->tones.between, RampBetween::step);
     EXPECT_EQ(surfaces("shading = 'gooch'\nwarm = [1, 0.5, 0]").recipe->warm, glm::vec3(1, 0.5f, 0));
-    const SurfaceStyle hatch = surfaces("shading = 'hatch'\nspace = 'object'\naxis = [1, 2, 3]\nlevels = 2\ntone = 0.5");
+    const SurfaceStyle hatch =
+        surfaces("shading = 'hatch'\nspace = 'object'\naxis = [1, 2, 3]\nlevels = 2\ntone = 0.5");
     EXPECT_EQ(hatch.recipe->space, HatchSpace::object);
     EXPECT_EQ(hatch.recipe->axis, glm::dvec3(1, 2, 3));
     EXPECT_EQ(hatch.recipe->levels, 2);
@@ -52,8 +53,9 @@ TEST(SurfaceKeys, LightsStandInOrder) {
 
 TEST(SurfaceKeys, ASheetFillsSurfacesWhereTheSceneDoesNotSay) {
     TemporaryFolder folder;
-    folder.write("grey.toml", "style_version = 1\n[surfaces]\nshading = 'flat'\n[[set]]\nname = 'a'\n"
-                              "classes = ['crease']\nstyle = 's'\n[style.s]\n");
+    folder.write("grey.toml",
+                 "style_version = 1\n[surfaces]\nshading = 'flat'\n[[set]]\nname = 'a'\n"
+                 "classes = ['crease']\nstyle = 's'\n[style.s]\n");
     const std::string style = "style = 'grey.toml'\n";
     const std::string without = folder.write("without.toml", style + kBox);
     const std::string with = folder.write("with.toml", style + kBox + "[surfaces]\npaper = '#ff0000'\n");
@@ -82,7 +84,8 @@ TEST(SurfaceKeys, FaultsAreNamedWithTheirPlace) {
         {"[surfaces]\nshading = 'toon'\ndetail = { tones = { stops = [[0, 1]] } }\n",
          "5:10: [surfaces.detail] needs over"},
         {"[surfaces]\nshading = 'hatch'\nspace = 'uv'\n", "5:9: [surfaces] space: \"uv\" is not in this version"},
-        {"[surfaces]\nshading = 'hatch'\nspace = 'object'\nangle = 3\n", "6:9: [surfaces] angle: is of lines on the screen"},
+        {"[surfaces]\nshading = 'hatch'\nspace = 'object'\nangle = 3\n",
+         "6:9: [surfaces] angle: is of lines on the screen"},
         {"[surfaces]\nshading = 'hatch'\naxis = [1, 0, 0]\n", "5:8: [surfaces] axis: is of lines on objects"},
         {"[surfaces]\nshading = 'hatch'\nlevels = 5\n", "5:10: [surfaces] levels: "},
         {"[surfaces]\nshading = 'hatch'\nshadows = true\ntone = 0.5\n",

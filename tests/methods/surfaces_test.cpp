@@ -275,8 +275,44 @@ TEST(SurfaceShading, WhatIsNoNumberIsBlackAndNoted) {
     EXPECT_EQ(d.at("A", 100, 100), 1);
 }
 
+TEST(Lights, OfASceneAreThoseOfItsLines) {
+    // Opacity is the light of a square's border, which a light in front of its middle reaches less and less.
+    const auto lines = [](const std::string& light, const std::string& of_sheet) {
+        const SceneText scene("style = \"s.toml\"\n[[light]]\n" + light +
+                              "\n[[object]]\nshape = \"plane\"\nsize = [160, 160]\nrotate = [90, 0, 0]\n"
+                              "translate = [100, 100, 0]\n");
+        scene.folder().write("s.toml", of_sheet +
+                                           "[[set]]\nname = \"a\"\nclasses = [\"border\"]\n"
+                                           "style = \"s\"\n[style.s]\nwidth = 6\nopacity = \"=light\"\n");
+        return Drawing(scene.load(), pixel_camera(kSize, kSize), kSize, kSize, {0, 0, kSize, kSize}, 2, render_abuffer);
+    };
+    const Drawing at_point = lines("position = [100, 100, 50]", "");
+    const Drawing far = lines("direction = [3, 0, 4]", ""),
+                  in_camera = lines("direction = [3, 0, 4]\nspace = \"camera\"", "");
+    const Drawing of_sheet = lines("position = [100, 100, 50]", "light = [0, 0, 1]\n");
+    for (int y = 40; y < 160; y += 9) {
+        EXPECT_NEAR(at_point.at("lines.A", 20, y), 50 / std::hypot(50, 80, y + 0.5 - 100), 0.01) << y;
+        EXPECT_NEAR(far.at("lines.A", 20, y), 0.8, 2e-3) << y;
+        EXPECT_NEAR(in_camera.at("lines.A", 20, y), 0.8, 2e-3) << y;
+        EXPECT_NEAR(of_sheet.at("lines.A", 20, y), 1, 2e-3) << y;
+    }
+}
+
+TEST(Lights, TheBrightestCounts) {
+    const Drawing d = drawn(kNoLines +
+                            "[[light]]\ndirection = [1, 0, 1]\n[[light]]\nposition = [100, 100, 60]\n"
+                            "[[material]]\nname = \"white\"\ncolor = [1, 1, 1]\n[surfaces]\nshading = \"toon\"\n"
+                            "tones = { stops = [[0, 0], [1, 1]], between = \"linear\" }\n"
+                            "[[object]]\nshape = \"plane\"\nsize = [160, 160]\nrotate = [90, 0, 0]\n"
+                            "translate = [100, 100, 0]\nmaterial = \"white\"\n");
+    for (int x = 30; x < 170; x += 11) {
+        const double near = 60 / std::hypot(60, x + 0.5 - 100, 0.5);
+        EXPECT_NEAR(d.at("R", x, 100), std::max(near, std::sqrt(0.5)), 1e-3) << x;
+    }
+}
+
 /// A plane at z = 0 that fills the picture, and a small ball in front of its middle.
-std::string ball_on_plane(double radius, double height, int rings = 200) {
+std::string ball_on_plane(double radius, double height, int rings = 80) {
     return "[surfaces]\ncolor = \"=rgb(lit, lit, lit)\"\n[[object]]\nshape = \"plane\"\nsize = [400, 400]\n"
            "rotate = [90, 0, 0]\ntranslate = [100, 100, 0]\n[[object]]\nshape = \"sphere\"\nradius = " +
            std::to_string(radius) + "\nsegments = " + std::to_string(2 * rings) + "\nrings = " + std::to_string(rings) +
@@ -331,7 +367,7 @@ TEST(Shadows, OfALightAtAPointAreCones) {
 
 TEST(Shadows, DoNotSpeckleWhatIsLit) {
     // Whether a ball is round or has some facets, it is lit as far as its normals face the light.
-    for (const int rings : {6, 12, 200}) {
+    for (const int rings : {6, 12, 100}) {
         for (const char* const normals : {"flat", "smooth"}) {
             const Drawing d = drawn(kNoLines +
                                     "[[light]]\ndirection = [3, 1, 1]\n[surfaces]\ncolor = \"=rgb(lit, light, 0)"
@@ -344,7 +380,7 @@ TEST(Shadows, DoNotSpeckleWhatIsLit) {
                     const bool is_edge =
                         d.at("id.polygon", x - 1, y) != polygon || d.at("id.polygon", x, y - 1) != polygon ||
                         d.at("id.polygon", x + 1, y) != polygon || d.at("id.polygon", x, y + 1) != polygon;
-                    if (rings < 200 && is_edge) continue;
+                    if (rings < 100 && is_edge) continue;
                     if (d.at("G", x, y) > 0.06) {
                         ASSERT_EQ(d.at("R", x, y), 1) << rings << normals << ' ' << x << ' ' << y;
                     }
