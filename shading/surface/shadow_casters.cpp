@@ -195,24 +195,28 @@ void ShadowCasters::add_grid(std::uint32_t number, const View& view, glm::dvec2 
                 visit(y * side + x);
         }
     };
-    std::vector<std::uint32_t> starts;
+    struct Entry {
+        std::uint32_t cell, caster;
+    };
+    std::vector<Entry> entries;
     for (;; side /= 2) {
         grid = {corner, side / size, side, static_cast<std::uint32_t>(cells_.size())};
-        starts.assign(std::size_t{side} * side + 1, 0);
-        std::size_t entries = 0;
+        entries.clear();
         const std::size_t most = kMostEntries * casters.size();
         for (const std::uint32_t caster : casters) {
-            for_cells(caster, [&](std::uint32_t cell) { ++starts[cell + 1], ++entries; });
-            if (side > 1 && entries > most) break;
+            for_cells(caster, [&](std::uint32_t cell) { entries.push_back({cell, caster}); });
+            if (side > 1 && entries.size() > most) break;
         }
-        if (side == 1 || entries <= most) break;  // else most lie in many cells: larger ones are as good
+        if (side == 1 || entries.size() <= most) break;  // else most lie in many cells: larger ones are as good
     }
     cells_.resize(cells_.size() + std::size_t{side} * side);
+    std::vector<std::uint32_t> starts(std::size_t{side} * side + 1, 0), sorted(entries.size());
+    for (const Entry& entry : entries) ++starts[entry.cell + 1];
     std::partial_sum(starts.begin(), starts.end(), starts.begin());
-    left_entries_ -= std::min<std::size_t>(left_entries_, starts.back());
-    std::vector<std::uint32_t> sorted(starts.back()), next(starts.begin(), starts.end() - 1);
-    for (const std::uint32_t caster : casters)
-        for_cells(caster, [&](std::uint32_t cell) { sorted[next[cell]++] = caster; });
+    std::vector<std::uint32_t> next(starts.begin(), starts.end() - 1);
+    for (const Entry& entry : entries) sorted[next[entry.cell]++] = entry.caster;
+    left_entries_ -= std::min(left_entries_, entries.size());
+    entries = {};
     grids_[number] = grid;
     for (std::uint32_t i = 0; i < side * side; ++i) {
         const std::span own = std::span(sorted).subspan(starts[i], starts[i + 1] - starts[i]);
