@@ -101,7 +101,7 @@ CompiledSheet::CompiledSheet(const StyleSheet& sheet, const SheetContext& contex
     }
     if (needs_.variables.has(Variable::qi)) needs_.tells_invisibility = true;
     needs_.tells_transmission = needs_.variables.has(Variable::transmission);
-    needs_.sides = needs_.variables.has_tier(VariableTier::sides);
+    needs_.sides = needs_.variables.has_tier(VariableTier::sides) || needs_.variables.has_tier(VariableTier::shadows);
     if (needs_.variables.has_tier(VariableTier::chains)) needs_.chains = true;
 }
 

@@ -37,6 +37,7 @@ enum class Variable : std::uint8_t {
     convex,
     light,
     light2,
+    lit,
     drawn_class,  ///< "class"
     is_mark,      // and the other classes in their order
     is_border,
@@ -81,9 +82,10 @@ constexpr Variable is_class(LineClass c) {
 
 /// Where a variable's values come from, from what is known anyway to what costs most.
 enum class VariableTier : std::uint8_t {
-    piece,   ///< 0: known of each piece and of each place on it
-    sides,   ///< 1: from the surfaces at its two sides and behind it
-    chains,  ///< 2: from the chain that the piece is a part of
+    piece,        ///< 0: known of each piece and of each place on it
+    sides,        ///< 1: from the surfaces at its two sides and behind it
+    chains,       ///< 2: from the chain that the piece is a part of
+    shadows = 4,  ///< from all that casts shadows
 };
 
 enum class NameKind : std::uint8_t { none, line_class, object, material };

@@ -298,6 +298,40 @@ TEST(Lights, OfASceneAreThoseOfItsLines) {
     }
 }
 
+Drawing with_lines(const std::string& objects, const std::string& opacity) {
+    const SceneText scene("style = \"s.toml\"\n[[light]]\ndirection = [1, 0, 1]\n" + objects);
+    scene.folder().write("s.toml",
+                         "[[set]]\nname = \"a\"\nclasses = [\"border\", \"silhouette\", \"crease\"]\n"
+                         "style = \"s\"\n[style.s]\nwidth = 4\nopacity = \"" +
+                             opacity + "\"\n");
+    return Drawing(scene.load(), pixel_camera(kSize, kSize), kSize, kSize, {0, 0, kSize, kSize}, 2, render_abuffer);
+}
+
+TEST(Lights, LinesKnowShadows) {
+    // The shadow of a ball falls on the border of a square.
+    const Drawing d = with_lines(
+        "[[object]]\nshape = \"plane\"\nsize = [160, 160]\nrotate = [90, 0, 0]\n"
+        "translate = [100, 100, 0]\n[[object]]\nshape = \"sphere\"\nradius = 20\n"
+        "segments = 128\nrings = 64\ntranslate = [60, 100, 40]\n",
+        "=lit");
+    for (int y = 40; y < 160; ++y) {
+        const double across = std::abs(y + 0.5 - 100);
+        if (std::abs(across - 20) < 3) continue;  // round ends of strokes
+        ASSERT_NEAR(d.at("lines.A", 20, y), across < 20 ? 0 : 1, 2e-3) << y;
+    }
+}
+
+TEST(Lights, ConvexBodiesCastNoShadowOnTheirOwnLines) {
+    for (const char* const body : {"shape = \"box\"\nsize = [70, 60, 80]\nrotate = [20, 30, 40]\n",
+                                   "shape = \"sphere\"\nradius = 70\nsegments = 24\nrings = 12\n",
+                                   "shape = \"cylinder\"\nradius = 40\nheight = 90\nrotate = [50, 0, 20]\n"}) {
+        const std::string object = std::string("[[object]]\n") + body + "translate = [100, 100, 0]\n";
+        const Drawing lit = with_lines(object, "=lit"), facing = with_lines(object, "=light > 0 ? 1 : 0");
+        EXPECT_GT(lit.sum("lines.A"), 100) << body;
+        EXPECT_TRUE(same_bits(lit.image(), facing.image())) << body;
+    }
+}
+
 TEST(Lights, TheBrightestCounts) {
     const Drawing d = drawn(kNoLines +
                             "[[light]]\ndirection = [1, 0, 1]\n[[light]]\nposition = [100, 100, 60]\n"
