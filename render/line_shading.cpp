@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lines/smooth_contours.h"
+#include "render/surface_shading.h"
 #include "shading/ink/found_needs.h"
 #include "shading/sheet/compiled_sheet.h"
 #include "shading/sheet/style_sheet.h"
@@ -78,6 +79,7 @@ FoundLines found_lines(LineDrawing drawing, const Frame& frame, int threads) {
     }
     lines.light = frame.scene->sheet->light;
     if (!frame.scene->lights.empty()) lines.scene_light = in_view(frame.scene->lights.front(), frame.camera.to_view());
+    if (frame.sheet->needs().variables.has(Variable::lit)) lines.casters = shadow_casters_of(frame);
     lines.frame = frame.scene->frame.number;
     lines.fps = frame.scene->frame.fps;
     lines.dpi = frame.scene->picture.dpi;

@@ -13,6 +13,11 @@ std::unique_ptr<const ShadedSurfaces> shaded_surfaces_of(const Frame& frame, int
     return std::make_unique<ShadedSurfaces>(*frame.surface_look, std::move(view), threads);
 }
 
+std::shared_ptr<const ShadowCasters> shadow_casters_of(const Frame& frame) {
+    return std::make_shared<ShadowCasters>(frame.surfaces, lights_of(frame).front(),
+                                           which_cast_shadows(frame.scene->materials));
+}
+
 void note_not_numbers(const ShadedSurfaces& surfaces, std::vector<std::string>& notes) {
     const std::uint64_t count = surfaces.not_numbers();
     if (count == 0) return;

@@ -13,6 +13,9 @@ namespace burin {
 /// outlive it.
 std::unique_ptr<const ShadedSurfaces> shaded_surfaces_of(const Frame& frame, int threads);
 
+/// What casts shadows in the light of a frame's key light.
+std::shared_ptr<const ShadowCasters> shadow_casters_of(const Frame& frame);
+
 /// Says where expressions gave no numbers. `notes`: gets what users should know.
 void note_not_numbers(const ShadedSurfaces& surfaces, std::vector<std::string>& notes);
 

@@ -79,7 +79,11 @@ class SceneReader {
         if (auto t = root_.table("frames")) read_frames(*t);
         if (auto t = root_.table("lines")) scene_.lines = read_line_settings(*t);
         read_style();
-        if (auto t = root_.table("surfaces")) scene_.surfaces = read_surfaces(*t);
+        if (auto t = root_.table("surfaces")) {
+            scene_.surfaces = read_surfaces(*t);
+        } else if (scene_.sheet && scene_.sheet->surfaces) {
+            scene_.surfaces = *scene_.sheet->surfaces;
+        }
         scene_.lights = read_lights(root_);
         if (auto t = root_.table("abuffer")) read_abuffer(*t);
         if (auto t = root_.table("patel")) read_patel(*t);

@@ -12,7 +12,7 @@ namespace burin {
 namespace {
 
 constexpr std::string_view kTopKeys[] = {"summary",    "crease_angle", "contours", "filter", "light",
-                                         "parameters", "groups",       "let",      "ramp"};
+                                         "parameters", "groups",       "let",      "ramp",   "surfaces"};
 
 [[noreturn]] void fail(const Override& o, const std::string& message) {
     throw UsageError("--set " + printable(o.key) + "=" + printable(o.value) + ": " + message);

@@ -14,6 +14,7 @@
 #include "scene/sheet_tables.h"
 #include "scene/sheet_values.h"
 #include "scene/style_toml.h"
+#include "scene/surfaces_toml.h"
 #include "scene/toml_reader.h"
 #include "shading/expression/error.h"
 #include "shading/sheet/sheet_symbols.h"
@@ -53,6 +54,7 @@ class SheetReader {
         if (const auto contours = root_.choice("contours", {"mesh", "smooth"})) sheet_.smooth_contours = *contours == 1;
         sheet_.filter = read_pixel_filter(root_);
         sheet_.light = root_.vector("light");
+        if (auto surfaces = root_.table("surfaces")) sheet_.surfaces = read_surfaces(*surfaces);
         if (sheet_.light && glm::length(*sheet_.light) < 1e-12)
             root_.fail("light", "must be a direction, such as [-1, 1, 1]");
     }

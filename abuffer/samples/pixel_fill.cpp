@@ -31,6 +31,17 @@ bool is_covered(const SampleTile& samples, PixelRect rect) {
     return false;
 }
 
+/// Whether all samples of a pixel have one id, but for whether it is plain. `ids`: of its first row.
+bool is_all_of(const std::uint32_t* ids, int stride, int s) {
+    const std::uint32_t id = ids[0];
+    if (s == 2) return ((ids[1] ^ id) | (ids[stride] ^ id) | (ids[stride + 1] ^ id)) >> 1 == 0;
+    std::uint32_t others = 0;
+    for (int row = 0; row < s; ++row, ids += stride) {
+        for (int column = 0; column < s; ++column) others |= ids[column] ^ id;
+    }
+    return others >> 1 == 0;
+}
+
 }  // namespace
 
 PixelFiller::PixelFiller(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels,
@@ -222,13 +233,13 @@ void PixelFiller::put_shaded(const SampleTile& samples, PixelRect rect, int y, F
 }
 
 void PixelFiller::add_fragments(const SampleTile& samples, int x, int y) {
+    const int s = samples.samples_per_pixel;
     struct Found {
         std::uint32_t id, count;
         int columns, rows;  // sums over its samples
     };
     std::array<Found, 64> found;
     std::size_t count = 0;
-    const int s = samples.samples_per_pixel;
     for (int row = 0; row < s; ++row) {
         const std::uint32_t* const ids = &samples.ids[samples.index(x * s, y * s + row)];
         for (int column = 0; column < s; ++column) {
@@ -256,19 +267,40 @@ void PixelFiller::put_fragments(const SampleTile& samples, PixelRect rect, Film&
     fragments_.clear();
     samples_of_.clear();
     fragments_of_.clear();
+    const int s = samples.samples_per_pixel;
     for (int y = rect.y0; y < rect.y1; ++y) {
-        for (int x = rect.x0; x < rect.x1; ++x) add_fragments(samples, x, y);
+        const std::uint32_t* ids = &samples.ids[samples.index(rect.x0 * s, y * s)];
+        std::uint32_t last_number = SampleTile::kBackground >> 1;
+        SurfaceId last = kBackground;
+        for (int x = rect.x0; x < rect.x1; ++x, ids += s) {
+            if (!is_all_of(ids, samples.stride, s)) {
+                add_fragments(samples, x, y);
+                continue;
+            }
+            const std::uint32_t number = ids[0] >> 1;
+            const bool is_surface = number != SampleTile::kBackground >> 1;
+            fragments_of_.push_back(is_surface ? 1 : 0);
+            if (!is_surface) continue;
+            if (number != last_number) last = screen_.surface_of(number);
+            last_number = number;
+            fragments_.push_back({last, {x + 0.5, y + 0.5}});
+            samples_of_.push_back(static_cast<std::uint8_t>(s * s));
+        }
     }
     colors_.resize(fragments_.size());
     fragment_shader_->shade(fragments_, colors_.data());
-    const float scale = 1.0f / static_cast<float>(samples.samples_per_pixel * samples.samples_per_pixel);
+    const float scale = 1.0f / static_cast<float>(s * s);
     std::size_t pixel = 0, fragment = 0;
+    glm::vec4 last(0.0f);
+    HalfColor half = half_color(last);
     for (int y = rect.y0; y < rect.y1; ++y) {
         for (int x = 0; x < rect.width(); ++x, ++pixel) {
             glm::vec4 sum(0.0f);
             for (int i = 0; i < fragments_of_[pixel]; ++i, ++fragment)
                 sum += glm::vec4(colors_[fragment], 1.0f) * (static_cast<float>(samples_of_[fragment]) * scale);
-            for (int c = 0; c < 4; ++c) row_.color[c][x] = Film::to_half(sum[c]);
+            if (sum != last) half = half_color(sum);
+            last = sum;
+            for (std::size_t c = 0; c < half.size(); ++c) row_.color[c][x] = half[c];
         }
         film.put_colors(rect.x0, rect.x1, y, {row_.color[0], row_.color[1], row_.color[2], row_.color[3]});
     }

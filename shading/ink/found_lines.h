@@ -2,6 +2,7 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,6 +16,8 @@
 #include "shading/surface/light.h"
 
 namespace burin {
+
+class ShadowCasters;
 
 /// An object as its lines know it.
 struct ObjectOfLines {
@@ -49,6 +52,8 @@ struct FoundLines {
     /// Direction to the key light in view space, where the sheet says it.
     std::optional<glm::dvec3> light;
     std::optional<ViewLight> scene_light;  ///< the key light of the scene; none: it is at the eye
+    /// What casts shadows in the key light's light; nullptr: nobody reads `lit`.
+    std::shared_ptr<const ShadowCasters> casters;
     int frame = 0;
     double fps = 24, dpi = 96;
 };

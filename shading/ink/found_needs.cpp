@@ -7,8 +7,8 @@
 namespace burin {
 
 FoundLinesNeeds found_needs_of(const SheetNeeds& sheet) {
-    constexpr Variable kOfNormals[] = {Variable::N,       Variable::N2,    Variable::facing,
-                                       Variable::facing2, Variable::light, Variable::light2};
+    constexpr Variable kOfNormals[] = {Variable::N,     Variable::N2,     Variable::facing, Variable::facing2,
+                                       Variable::light, Variable::light2, Variable::lit};
     FoundLinesNeeds needs;
     needs.normals =
         std::any_of(std::begin(kOfNormals), std::end(kOfNormals), [&](Variable v) { return sheet.variables.has(v); });
@@ -30,6 +30,8 @@ std::string missing_for(const StyleSheet& style, const SheetNeeds& sheet, const 
     add(sheet.tells_invisibility && !lines.tells_invisibility, "how many surfaces are in front (qi)");
     add(sheet.sides && !lines.has_beyond, "the surfaces behind lines");
     add(needs.normals && !lines.has_normals, "normals");
+    add(sheet.variables.has(Variable::lit) && (!lines.casters || style.light != lines.light),
+        "what casts shadows (lit), which a file of lines never has");
     add(needs.chains && !lines.has_chains, "chains");
     add(needs.surface.kr && !lines.surface.kr, "curvature (kr)");
     add(needs.surface.uv && !lines.surface.uv, "texture coordinates (u, v)");

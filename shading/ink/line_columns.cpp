@@ -6,6 +6,7 @@
 
 #include "kernels/expression_kernels.h"
 #include "mesh/vectors.h"
+#include "shading/surface/shadow_casters.h"
 
 namespace burin {
 namespace {
@@ -269,6 +270,15 @@ void LineColumns::fill_sides(std::span<const LineSample> samples, Columns& out) 
     };
     out.each(V::facing, facing(true));
     out.each(V::facing2, facing(false));
+    // A pixel in front of its surfaces: places of lines are not exact, and must not lie behind these.
+    out.each(V::lit, [&](std::size_t i) {
+        if (glm::dot(normal(i, true), to_light(i)) <= 0) return 0;
+        const LineSides& s = sides(i);
+        const glm::dvec3 other = s.is_beyond ? glm::dvec3(0.0) : normal(i, false);
+        const double px_size = projection.pixel_size(depth_at(samples[i]));
+        const glm::dvec3 place = position_of(samples[i]) + unit(normal(i, true) + other) * px_size;
+        return lines_.casters == nullptr || lines_.casters->is_lit(place, kBackground) ? 1 : 0;
+    });
     out.each(V::light, light(true));
     out.each(V::light2, light(false));
     out.each_triple(V::N, [&](std::size_t i) { return glm::dmat3(lines_.camera_to_world) * normal(i, true); });

@@ -108,7 +108,7 @@ CompiledSheet::CompiledSheet(const StyleSheet& sheet, const SheetContext& contex
     needs_.surface.kr = needs_.variables.has(Variable::kr);
     needs_.surface.uv = needs_.variables.has(Variable::u) || needs_.variables.has(Variable::v);
     needs_.surface.color = needs_.variables.has(Variable::Cv);
-    needs_.sides = needs_.variables.has_tier(VariableTier::sides);
+    needs_.sides = needs_.variables.has_tier(VariableTier::sides) || needs_.variables.has_tier(VariableTier::shadows);
     if (needs_.variables.has_tier(VariableTier::chains)) needs_.chains = true;
 }
 

@@ -14,6 +14,7 @@
 #include "shading/expression/symbols.h"
 #include "shading/ink/inked_lines.h"
 #include "shading/line_style.h"
+#include "shading/surface_shader.h"
 
 // A style sheet says which lines are drawn, and how: line sets choose lines, styles say how they look
 // (docs/shading/sheets.md). Here is a sheet as it stands in its file, with everything checked that can be checked
@@ -151,7 +152,8 @@ struct StyleSheet {
     std::optional<std::array<double, 2>> crease_angle_deg;  ///< from where to where creases fade in; or twice the same
     std::optional<bool> smooth_contours;
     std::optional<PixelFilter> filter;
-    std::optional<glm::dvec3> light;  ///< direction to the key light, in the camera's axes
+    std::optional<glm::dvec3> light;       ///< direction to the key light, in the camera's axes
+    std::optional<SurfaceStyle> surfaces;  ///< for scenes that do not say how they are filled
     std::vector<SheetParameter> parameters;
     std::vector<ExpressionGroup> groups;
     std::vector<SheetLet> lets;

@@ -45,6 +45,8 @@ constexpr std::array<VariableRow, kVariableCount> kTable = {{
     {V::light, "light", number, "", "0 to 1", R::sample, T::sides, K::none,
      "max(0, N · L), where L is the unit vector to the key light"},
     {V::light2, "light2", number, "", "0 to 1", R::sample, T::sides, K::none, "the same of N2"},
+    {V::lit, "lit", number, "", "0, 1", R::sample, T::shadows, K::none,
+     "0 where the front side is in shadow or turned away from the key light, else 1"},
     {V::drawn_class, "class", number, "", "names", R::piece, T::piece, K::line_class,
      "class as drawn: `class == \"crease\"`"},
     {V::is_mark, "is_mark", number, "", "0, 1", R::piece, T::piece, K::none,
@@ -113,8 +115,8 @@ constexpr bool is_in_order() {
 static_assert(is_in_order());
 
 constexpr auto kLater =
-    std::to_array<std::string_view>({"k1", "k2", "valley", "ridge", "suggestive", "light", "shadow", "lit",
-                                     "is_suggestive", "is_ridge", "is_valley", "is_light", "is_shadow"});
+    std::to_array<std::string_view>({"k1", "k2", "valley", "ridge", "suggestive", "light", "shadow", "is_suggestive",
+                                     "is_ridge", "is_valley", "is_light", "is_shadow"});
 
 }  // namespace
 

@@ -37,6 +37,7 @@ enum class Variable : std::uint8_t {
     convex,
     light,
     light2,
+    lit,
     drawn_class,  ///< "class"
     is_mark,      // and the other classes in their order
     is_border,
@@ -89,6 +90,7 @@ enum class VariableTier : std::uint8_t {
     sides,           ///< 1: from the surfaces at its two sides and behind it
     chains,          ///< 2: from the chain that the piece is a part of
     curvature,       ///< 3: from the curvature of smooth surfaces
+    shadows = 4,     ///< 4: from all that casts shadows
     attributes = 5,  ///< 5: from what the file of a model gives at its vertices
 };
 

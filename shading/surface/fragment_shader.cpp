@@ -76,7 +76,8 @@ void FragmentShader::shade_block(std::span<const SurfaceFragment> fragments, glm
     for (std::size_t i = 0; i < fragments.size(); ++i) {
         const bool is_known = i > 0 && fragments[i].surface == fragments[i - 1].surface;
         triangle_at_[i] = is_known ? triangle_at_[i - 1] : triangle_number(fragments[i].surface);
-        if (needs_places_) places_[i] = triangle_of(i).at(fragments[i].place, needs_changes_);
+        if (needs_places_) places_[i] = triangle_of(i).at(fragments[i].place);
+        if (needs_changes_) changes_[i] = triangle_of(i).changes_at(fragments[i].place, places_[i]);
     }
     if (look_.needs_lit) {
         for (std::size_t i = 0; i < fragments.size(); ++i) lit_[i] = lit_share(i, fragments[i].place);
@@ -116,9 +117,6 @@ void FragmentShader::fill_column(const SurfaceInput& input, std::span<const Surf
         for (std::size_t i = 0; i < n; ++i) to[i] = static_cast<float>(compute(i));
     };
     const auto depth = [&](std::size_t i) { return -places_[i].position.z; };
-    const auto to_eye = [&](std::size_t i) {
-        return projection_.orthographic ? glm::dvec3(0, 0, 1) : unit(-places_[i].position);
-    };
     const auto in_row = [c](const glm::dmat4& m, const glm::dvec3& v) {
         return m[0][c] * v.x + m[1][c] * v.y + m[2][c] * v.z;
     };
@@ -145,11 +143,12 @@ void FragmentShader::fill_column(const SurfaceInput& input, std::span<const Surf
         case S::N:
             return each([&](std::size_t i) { return in_row(to_world, places_[i].normal); });
         case S::facing:
-            return each([&](std::size_t i) { return std::clamp(glm::dot(places_[i].normal, to_eye(i)), 0.0, 1.0); });
+            return each([&, eye = light_at_eye(projection_)](std::size_t i) {
+                return std::clamp(eye.cosine(places_[i].normal, places_[i].position), 0.0, 1.0);
+            });
         case S::light:
-            return each([&](std::size_t i) {
-                const ViewLight& key = surfaces_.lights().front();
-                return std::clamp(glm::dot(places_[i].normal, key.towards(places_[i].position)), 0.0, 1.0);
+            return each([&, key = surfaces_.lights().front()](std::size_t i) {
+                return std::clamp(key.cosine(places_[i].normal, places_[i].position), 0.0, 1.0);
             });
         case S::lit:
             return each([&](std::size_t i) { return lit_[i]; });
@@ -185,7 +184,7 @@ float FragmentShader::lit_share(std::size_t i, glm::dvec2 pixel) const {
     const ShadedTriangle& triangle = triangle_of(i);
     const SurfacePlace& place = places_[i];
     // A surface is in its own shadow where it is turned away.
-    if (glm::dot(place.normal, surfaces_.lights().front().towards(place.position)) <= 0) return 0;
+    if (surfaces_.lights().front().cosine(place.normal, place.position) <= 0) return 0;
     const auto count_lit = [&](int side) {
         int lit = 0;
         for (int k = 0; k < side * side; ++k) {
@@ -199,12 +198,12 @@ float FragmentShader::lit_share(std::size_t i, glm::dvec2 pixel) const {
     return static_cast<float>(count_lit(kFineSide)) / (kFineSide * kFineSide);
 }
 
-FragmentShader::Light FragmentShader::light_at(const SurfacePlace& place, bool in_shadow) const {
+FragmentShader::Light FragmentShader::light_at(std::size_t i, bool in_shadow) const {
+    const SurfacePlace& place = places_[i];
     Light brightest{-1, 0};
     bool is_first = true;
     for (const ViewLight& light : surfaces_.lights()) {
-        const glm::dvec3 way = light.towards(place.position);
-        const double value = std::clamp(glm::dot(place.normal, way), -1.0, 1.0);
+        const double value = std::clamp(light.cosine(place.normal, place.position), -1.0, 1.0);
         if (in_shadow && is_first && value > 0) {
             brightest = {0, 0};
             is_first = false;
@@ -214,13 +213,14 @@ FragmentShader::Light FragmentShader::light_at(const SurfacePlace& place, bool i
         is_first = false;
         brightest.value = value;
         if (!needs_changes_) continue;
+        const glm::dvec3 way = light.towards(place.position);
         glm::dvec2 change;
-        for (int i = 0; i < 2; ++i) {
-            change[i] = glm::dot(place.normal_change[i], way);
+        for (int axis = 0; axis < 2; ++axis) {
+            change[axis] = glm::dot(changes_[i].normal[axis], way);
             if (!light.is_at_point) continue;
             const double distance = std::max(glm::length(light.place - place.position), 1e-300);
-            const glm::dvec3& moved = place.position_change[i];
-            change[i] -= glm::dot(place.normal, moved - way * glm::dot(way, moved)) / distance;
+            const glm::dvec3& moved = changes_[i].position[axis];
+            change[axis] -= glm::dot(place.normal, moved - way * glm::dot(way, moved)) / distance;
         }
         brightest.change_per_px = glm::length(change);
     }
@@ -229,7 +229,7 @@ FragmentShader::Light FragmentShader::light_at(const SurfacePlace& place, bool i
 
 glm::vec3 FragmentShader::toon(std::size_t i, bool in_shadow) const {
     const glm::vec3& color = triangle_of(i).color();
-    const Light light = light_at(places_[i], in_shadow);
+    const Light light = light_at(i, in_shadow);
     const auto tone = [&](const ToneCurve& curve) {
         const glm::vec3 value = curve.at(light.value, light.change_per_px * look_.softness_px);
         return curve.is_color() ? value : value * color;
@@ -241,7 +241,7 @@ glm::vec3 FragmentShader::toon(std::size_t i, bool in_shadow) const {
 
 glm::vec3 FragmentShader::gooch(std::size_t i, bool in_shadow) const {
     const glm::vec3& color = triangle_of(i).color();
-    const auto share = static_cast<float>(0.5 * (1 + light_at(places_[i], in_shadow).value));
+    const auto share = static_cast<float>(0.5 * (1 + light_at(i, in_shadow).value));
     return glm::mix(look_.cool + 0.25f * color, look_.warm + 0.5f * color, share);
 }
 
@@ -250,7 +250,7 @@ double FragmentShader::covered_on_object(std::size_t i, const glm::dvec3& axis, 
     const SurfacePlace& p = places_[i];
     const glm::dvec3 in_view = axis_in_view(i, axis);
     const double place = glm::dot(in_view, p.position) + glm::dot(axis, glm::dvec3(to_object[3]));
-    const glm::dvec2 change(glm::dot(in_view, p.position_change[0]), glm::dot(in_view, p.position_change[1]));
+    const glm::dvec2 change(glm::dot(in_view, changes_[i].position[0]), glm::dot(in_view, changes_[i].position[1]));
     // Where planes are nearly level with the surface, lines would crowd.
     const double least = 0.1 * glm::length(in_view) * projection_.pixel_size(-p.position.z);
     return covered_by_adaptive_lines(place, std::max(glm::length(change), least), look_.hatch_spacing_px, width);

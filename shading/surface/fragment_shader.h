@@ -40,7 +40,7 @@ class FragmentShader {
     void evaluate(std::span<const SurfaceFragment> fragments);
     void fill_column(const SurfaceInput& input, std::span<const SurfaceFragment> fragments, float* to) const;
     /// With `in_shadow`: where the key light is hidden.
-    Light light_at(const SurfacePlace& place, bool in_shadow) const;
+    Light light_at(std::size_t i, bool in_shadow) const;
     /// The share of a pixel's part that the key light reaches.
     float lit_share(std::size_t i, glm::dvec2 pixel) const;
     glm::vec3 toon(std::size_t i, bool in_shadow) const;
@@ -66,6 +66,7 @@ class FragmentShader {
     std::array<std::uint16_t, kSlots> slots_{};  // number of a triangle + 1
     std::array<std::uint16_t, kBlock> triangle_at_{};
     std::array<SurfacePlace, kBlock> places_{};
+    std::array<SurfaceChanges, kBlock> changes_{};
     std::array<float, kBlock> lit_{};
     std::vector<float> columns_;  // of the program's inputs, one after the other
     std::vector<float> values_;   // of its results

@@ -33,17 +33,17 @@ double HatchLevels::coverage(int level, double tone) const {
 
 double covered_by_lines(double place, double length, double width) {
     const double begin = covered_up_to(place - 0.5 * length, width), end = covered_up_to(place + 0.5 * length, width);
-    return std::clamp((end - begin) / length, 0.0, 1.0);
+    return std::max(0.0, std::min(1.0, (end - begin) / length));  // what is no number becomes 1
 }
 
 double covered_by_adaptive_lines(double place, double per_px, double spacing_px, double width) {
     // The distance of the denser lines on the screen is from half of the spacing to all of it. As it falls from all to
     // half, every other line goes, and those that stay take what it leaves.
-    const double wanted = std::clamp(per_px * spacing_px, 1e-200, 1e200);
+    const double wanted = std::max(1e-200, std::min(1e200, per_px * spacing_px));
     const int exponent = std::ilogb(wanted);
     const double distance = std::ldexp(1.0, exponent), beyond = wanted / distance - 1;
     const double odd = width * (1 - beyond), even = 2 * width - odd;
-    return std::clamp(covered_by_two(place / distance, per_px / distance, even, odd), 0.0, 1.0);
+    return std::min(1.0, covered_by_two(place / distance, per_px / distance, even, odd));
 }
 
 }  // namespace burin

@@ -25,6 +25,12 @@ struct ViewLight {
         const glm::dvec3 way = place - from;
         return way / std::max(glm::length(way), 1e-300);
     }
+    /// Of the angle between the way towards it and a normal.
+    double cosine(const glm::dvec3& normal, const glm::dvec3& from) const {
+        if (!is_at_point) return glm::dot(normal, place);
+        const glm::dvec3 way = place - from;
+        return glm::dot(normal, way) / std::max(glm::length(way), 1e-300);
+    }
     bool operator==(const ViewLight&) const = default;
 };
 

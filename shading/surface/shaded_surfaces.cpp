@@ -6,6 +6,12 @@
 
 namespace burin {
 
+std::vector<bool> which_cast_shadows(std::span<const Material> materials) {
+    std::vector<bool> cast;
+    for (const Material& material : materials) cast.push_back(material.opacity == 1);
+    return cast;
+}
+
 ShadedSurfaces::ShadedSurfaces(const SurfaceLook& look, ShadedView view, int threads)
     : look_(look), view_(std::move(view)) {
     const std::vector<SurfaceInstance>& instances = view_.surfaces->instances;
@@ -15,11 +21,7 @@ ShadedSurfaces::ShadedSurfaces(const SurfaceLook& look, ShadedView view, int thr
         to_object[3] = glm::dvec4(instance.mesh->origin - back * glm::dvec3(instance.to_view[3]), 1.0);
         to_object_.push_back(to_object);
     }
-    if (look.needs_lit) {
-        std::vector<bool> is_caster;
-        for (const Material& material : view_.materials) is_caster.push_back(material.opacity == 1);
-        casters_.emplace(*view_.surfaces, view_.lights.front(), is_caster);
-    }
+    if (look.needs_lit) casters_.emplace(*view_.surfaces, view_.lights.front(), which_cast_shadows(view_.materials));
     if (!look.has_smooth_normals) return;
     std::map<const Mesh*, std::size_t> numbers;
     std::vector<const Mesh*> meshes;

@@ -26,6 +26,9 @@ struct ShadedView {
     double cos_crease_angle = 0;    ///< where smooth normals end
 };
 
+/// Of each material: whether its surfaces cast shadows. Transparent ones do not.
+std::vector<bool> which_cast_shadows(std::span<const Material> materials);
+
 /// ShadedSurfaces has all that shading a surface reads: how it looks, where it is and what lights it. It borrows what
 /// it is made of. The same for all threads.
 class ShadedSurfaces {

@@ -42,21 +42,9 @@ ShadedTriangle::ShadedTriangle(const ShadedSurfaces& shaded, SurfaceId id) : id_
     }
 }
 
-ShadedTriangle::Weights ShadedTriangle::weights_at(glm::dvec2 pixel) const {
-    Weights weights{};
-    double sum = 0;
-    for (int k = 0; k < 3; ++k) {
-        weights.of[k] = std::max(weights_[k][0] + pixel.x * weights_[k][1] + pixel.y * weights_[k][2], 0.0);
-        sum += weights.of[k];
-    }
-    if (!(sum > 0)) return {{1.0 / 3, 1.0 / 3, 1.0 / 3}, 1};  // edge-on
-    weights.scale = 1 / sum;
-    return weights;
-}
-
 glm::dvec3 ShadedTriangle::shadow_place(glm::dvec2 pixel) const {
     const auto [weights, scale] = weights_at(pixel);
-    const glm::dvec3 place = (weights[0] * corners_[0] + weights[1] * corners_[1] + weights[2] * corners_[2]) * scale;
+    const glm::dvec3 place = mean_of(corners_, weights) * scale;
     if (!is_smooth_) return place;
     glm::dvec3 moved = place;
     for (int k = 0; k < 3; ++k) {
@@ -66,31 +54,19 @@ glm::dvec3 ShadedTriangle::shadow_place(glm::dvec2 pixel) const {
     return moved;
 }
 
-SurfacePlace ShadedTriangle::at(glm::dvec2 pixel, bool with_changes) const {
+SurfaceChanges ShadedTriangle::changes_at(glm::dvec2 pixel, const SurfacePlace& place) const {
     const auto [weights, scale] = weights_at(pixel);
-    SurfacePlace place{};
-    place.position = (weights[0] * corners_[0] + weights[1] * corners_[1] + weights[2] * corners_[2]) * scale;
-    if (with_changes) {
-        for (int i = 0; i < 2; ++i) {
-            const double a = weights_[0][i + 1], b = weights_[1][i + 1], c = weights_[2][i + 1];
-            place.position_change[i] =
-                (a * corners_[0] + b * corners_[1] + c * corners_[2] - place.position * (a + b + c)) * scale;
-        }
-    }
-    if (!is_smooth_) {
-        place.normal = normals_[0];
-        return place;
-    }
-    const glm::dvec3 mean = (weights[0] * normals_[0] + weights[1] * normals_[1] + weights[2] * normals_[2]) * scale;
-    const double length = glm::length(mean);
-    place.normal = mean / std::max(length, 1e-300);
-    if (!with_changes || !(length > 0)) return place;
+    SurfaceChanges changes{};
+    const double length = is_smooth_ ? glm::length(mean_of(normals_, weights)) : 0;
     for (int i = 0; i < 2; ++i) {
-        const double a = weights_[0][i + 1], b = weights_[1][i + 1], c = weights_[2][i + 1];
-        const glm::dvec3 change = (a * normals_[0] + b * normals_[1] + c * normals_[2]) * (scale / length);
-        place.normal_change[i] = change - place.normal * glm::dot(place.normal, change);
+        const double change[3] = {weights_[0][i + 1], weights_[1][i + 1], weights_[2][i + 1]};
+        changes.position[i] =
+            (mean_of(corners_, change) - place.position * (change[0] + change[1] + change[2])) * scale;
+        if (!(length > 0)) continue;
+        const glm::dvec3 normal = mean_of(normals_, change) * (1 / length);
+        changes.normal[i] = normal - place.normal * glm::dot(place.normal, normal);
     }
-    return place;
+    return changes;
 }
 
 }  // namespace burin

@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::size_t kFewCasters = 32;  ///< a cell with so few needs no grid
 constexpr int kMostDepth = 6;
+/// For each caster: entries in the cells of one grid, and in those of all grids of a view.
+constexpr std::size_t kMostEntries = 6, kMostEntriesOfAll = 24;
 constexpr std::uint32_t kMostSide = 1024;
 
 /// The range of x that a convex outline has in a row; nothing where it is not there.
@@ -112,6 +114,7 @@ ShadowCasters::ShadowCasters(const SurfaceSet& surfaces, const ViewLight& light,
         std::stable_sort(seen.begin(), seen.end(),
                          [&](std::uint32_t a, std::uint32_t b) { return casters_[a].nearness > casters_[b].nearness; });
         const double size = std::max({high.x - low.x, high.y - low.y, 1e-30});
+        left_entries_ = kMostEntriesOfAll * seen.size();
         views_[v].grid = static_cast<std::int64_t>(grids_.size());
         grids_.emplace_back();
         add_grid(static_cast<std::uint32_t>(views_[v].grid), views_[v], low, size * (1 + 1e-9), seen, 0);
@@ -159,48 +162,66 @@ ShadowCasters::Outline ShadowCasters::outline_in(const View& view, const Caster&
     return outline;
 }
 
-/// Sorts casters to the cells of a grid, and gives a grid to cells of many as long as that parts them.
+/// Sorts casters to the cells of a grid, and gives a grid of their own to cells of many.
 void ShadowCasters::add_grid(std::uint32_t number, const View& view, glm::dvec2 corner, double size,
                              std::span<const std::uint32_t> casters, int depth) {
     throw_if_interrupted();
     const double wanted = std::ceil(std::sqrt(static_cast<double>(casters.size()) / 2));
-    const auto side = static_cast<std::uint32_t>(std::clamp(wanted, 1.0, static_cast<double>(kMostSide)));
-    Grid grid{corner, side / size, side, static_cast<std::uint32_t>(cells_.size())};
-    cells_.resize(cells_.size() + std::size_t{side} * side);
+    auto side = static_cast<std::uint32_t>(std::clamp(wanted, 1.0, static_cast<double>(kMostSide)));
+    Grid grid;
     // What touches a cell's border is in the cells at both sides.
     const double slack = 1e-9;
     const auto for_cells = [&](std::uint32_t caster, const auto& visit) {
         Outline outline = outline_in(view, casters_[caster]);
         const std::span corners(outline.corners, static_cast<std::size_t>(outline.count));
-        double top = std::numeric_limits<double>::infinity(), bottom = -top;
+        double top = std::numeric_limits<double>::infinity(), bottom = -top, left = top, right = -top;
         for (glm::dvec2& p : corners) {
             p = (p - corner) * grid.cells_per_unit;
             top = std::min(top, p.y);
             bottom = std::max(bottom, p.y);
+            left = std::min(left, p.x);
+            right = std::max(right, p.x);
         }
         const auto cell_of = [&](double at) {
             return static_cast<std::uint32_t>(std::clamp(std::floor(at), 0.0, static_cast<double>(side - 1)));
         };
-        if (bottom < -slack || top > side + slack) return;
-        for (std::uint32_t y = cell_of(top - slack); y <= cell_of(bottom + slack); ++y) {
-            const Range range = range_in_row(corners, y - slack, y + 1 + slack);
+        if (bottom < -slack || top > side + slack || right < -slack || left > side + slack) return;
+        const std::uint32_t first = cell_of(top - slack), last = cell_of(bottom + slack);
+        for (std::uint32_t y = first; y <= last; ++y) {
+            // Of a small triangle all cells around it count.
+            const Range range = last - first < 2 ? Range{left, right} : range_in_row(corners, y - slack, y + 1 + slack);
             if (!(range.low <= side + slack && range.high >= -slack)) continue;
             for (std::uint32_t x = cell_of(range.low - slack); x <= cell_of(range.high + slack); ++x)
-                visit(grid.first_cell + y * side + x);
+                visit(y * side + x);
         }
     };
-    std::vector<std::uint32_t> starts(std::size_t{side} * side + 1, 0);
-    for (const std::uint32_t caster : casters)
-        for_cells(caster, [&](std::uint32_t cell) { ++starts[cell - grid.first_cell + 1]; });
+    struct Entry {
+        std::uint32_t cell, caster;
+    };
+    std::vector<Entry> entries;
+    for (;; side /= 2) {
+        grid = {corner, side / size, side, static_cast<std::uint32_t>(cells_.size())};
+        entries.clear();
+        const std::size_t most = kMostEntries * casters.size();
+        for (const std::uint32_t caster : casters) {
+            for_cells(caster, [&](std::uint32_t cell) { entries.push_back({cell, caster}); });
+            if (side > 1 && entries.size() > most) break;
+        }
+        if (side == 1 || entries.size() <= most) break;  // else most lie in many cells: larger ones are as good
+    }
+    cells_.resize(cells_.size() + std::size_t{side} * side);
+    std::vector<std::uint32_t> starts(std::size_t{side} * side + 1, 0), sorted(entries.size());
+    for (const Entry& entry : entries) ++starts[entry.cell + 1];
     std::partial_sum(starts.begin(), starts.end(), starts.begin());
-    std::vector<std::uint32_t> sorted(starts.back()), next(starts.begin(), starts.end() - 1);
-    for (const std::uint32_t caster : casters)
-        for_cells(caster, [&](std::uint32_t cell) { sorted[next[cell - grid.first_cell]++] = caster; });
+    std::vector<std::uint32_t> next(starts.begin(), starts.end() - 1);
+    for (const Entry& entry : entries) sorted[next[entry.cell]++] = entry.caster;
+    left_entries_ -= std::min(left_entries_, entries.size());
+    entries = {};
     grids_[number] = grid;
     for (std::uint32_t i = 0; i < side * side; ++i) {
         const std::span own = std::span(sorted).subspan(starts[i], starts[i + 1] - starts[i]);
-        const bool is_parted = own.size() * 4 <= casters.size() || depth == 0;
-        if (own.size() > kFewCasters && side > 1 && is_parted && depth < kMostDepth) {
+        const bool has_room = kMostEntries * own.size() <= left_entries_;
+        if (own.size() > kFewCasters && side > 1 && has_room && depth < kMostDepth) {
             const auto inner = static_cast<std::uint32_t>(grids_.size());
             grids_.emplace_back();
             cells_[grid.first_cell + i] = {inner, Cell::kIsGrid};

@@ -15,8 +15,8 @@ namespace burin {
 ///
 /// Triangles are sorted to the cells of a grid as the light sees them; cells of many triangles have a grid of their
 /// own. Of a cell's triangles, each one that is nearer to the light is intersected with the ray itself. So there is no
-/// resolution: no texels and no bias, and what is found depends on the place alone. It takes about 150 bytes for a
-/// triangle. The same for all threads.
+/// resolution: no texels and no bias, and what is found depends on the place alone. It takes at most 300 bytes for
+/// a triangle. The same for all threads.
 class ShadowCasters {
   public:
     /// `is_caster`, per material of the scene: whether surfaces of it cast shadows.
@@ -63,7 +63,8 @@ class ShadowCasters {
     bool hides(const Caster& caster, const glm::dvec3& place, const glm::dvec3& way) const;
 
     ViewLight light_;
-    double least_distance_ = 0;  // what is as near as this to a place is at it
+    std::size_t left_entries_ = 0;  // of casters in cells, while grids are made
+    double least_distance_ = 0;     // what is as near as this to a place is at it
     std::vector<Caster> casters_;
     std::vector<View> views_;
     std::vector<Grid> grids_;

@@ -53,6 +53,23 @@ TEST(Restyle, DrawsOverTheSurfacesThatWereKept) {
     EXPECT_TRUE(read_file(folder.file("b.png")) == read_file(folder.file("c.png")));
 }
 
+TEST(Restyle, KnowsTheLightOfTheScene) {
+    const TemporaryFolder folder;
+    // Its light is not at the eye, and widths of the sheet `comic` come from light.
+    const std::string scene = scene_file("shaded.toml");
+    ASSERT_EQ(run_in(folder, {"render", scene, "-o", "a.exr", "-r", "160x120", "-q", "--style", "comic", "--layers",
+                              "lines", "--save-lines", "a.lines"})
+                  .err,
+              "");
+    ASSERT_EQ(run_in(folder, {"restyle", "a.lines", "-o", "b.exr", "--style", "comic", "--layers", "lines"}).err, "");
+    EXPECT_TRUE(read_file(folder.file("a.exr")) == read_file(folder.file("b.exr")));
+    ASSERT_EQ(run_in(folder, {"restyle", "a.lines", "-o", "c.exr", "--style", "comic", "--layers", "lines", "--set",
+                              "style.light=[1, 0, 0]"})
+                  .err,
+              "");
+    EXPECT_FALSE(read_file(folder.file("a.exr")) == read_file(folder.file("c.exr")));
+}
+
 TEST(Restyle, SaysWhatTheFileLacks) {
     const TemporaryFolder folder;
     ASSERT_EQ(run_in(folder, {"render", scene_file("crossing.toml"), "-o", "a.png", "-r", "80x60", "-q", "--style",
