@@ -32,7 +32,7 @@ extern "C" {
 
 /** The version of this interface. It counts up with every change; a library works for programs that were built with
  * the same number or a smaller one. */
-#define BURIN_ABI 3
+#define BURIN_ABI 4
 /** BURIN_ABI of the library that is loaded. */
 BURIN_API int burin_abi(void);
 /** Its version, "0.1.0". */
@@ -262,7 +262,7 @@ BURIN_API const void* burin_column(burin_drawing* drawing, const char* name, int
 
 /** A picture as the bytes of a file: the same that the program writes. `picture_or_drawing`: a burin_picture, or a
  * burin_drawing, which is drawn. `format`: "exr", "png", "png16", "tif", "tif16", the number is bits
- * per value; and of a drawing "svg".
+ * per value; and of a drawing "svg", "pdf", "dxf".
  * `style`: as in burin_draw(); NULL for a picture. `bytes` and `count` get the file, to be freed by burin_bytes_free().
  */
 BURIN_API int burin_encode(const void* picture_or_drawing, const char* format, const char* style, uint8_t** bytes,
