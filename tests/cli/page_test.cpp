@@ -7,6 +7,8 @@
 #include <sstream>
 #include <string>
 
+#include "image/exr_io.h"
+#include "image/exr_reader.h"
 #include "tests/cli/models.h"
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
@@ -217,6 +219,35 @@ TEST(Views, OnOneSheet) {
         one.insert(one.end(), {"-j", "1"});
         three.insert(three.end(), {"-j", "3"});
         EXPECT_EQ(drawn(folder, one, name), drawn(folder, three, name)) << name;
+    }
+}
+
+/// Pixels and paths are at the same places on paper.
+TEST(Paper, PixelsAreWherePathsAre) {
+    const TemporaryFolder folder;
+    // In millimetres: half a line wider than paths.
+    for (const Arguments& options :
+         {Arguments{"--paper", "A5", "-r", "210", "--margin", "60,10,5,70"},
+          Arguments{"--paper", "A5-landscape", "-r", "210", "--views", "front,top,iso", "--margin", "5,80,30,7"}}) {
+        const Bounds paths(drawn(folder, options, "out.dxf"));
+        Arguments with_lines = options;
+        with_lines.insert(with_lines.end(), {"--layers", "lines"});
+        drawn(folder, with_lines, "out.exr");
+        const Image image = read_exr(folder.file("out.exr"));
+        Bounds pixels("");
+        for (int y = 0; y < image.height(); ++y) {
+            for (int x = 0; x < image.width(); ++x) {
+                if (image.value(*image.find("lines.A"), x, y) < 0.3) continue;
+                pixels.x0 = std::min(pixels.x0, x + 0.5);
+                pixels.x1 = std::max(pixels.x1, x + 0.5);
+                pixels.y0 = std::min(pixels.y0, image.height() - y - 0.5);
+                pixels.y1 = std::max(pixels.y1, image.height() - y - 0.5);
+            }
+        }
+        EXPECT_NEAR(pixels.x0, paths.x0, 1);
+        EXPECT_NEAR(pixels.x1, paths.x1, 1);
+        EXPECT_NEAR(pixels.y0, paths.y0, 1);
+        EXPECT_NEAR(pixels.y1, paths.y1, 1);
     }
 }
 
