@@ -330,7 +330,7 @@ BURIN_API int burin_add_line_test(burin_scene* scene, const char* name, const ch
 
 /** A picture as the bytes of a file: the same that the program writes. `picture_or_drawing`: a burin_picture, or a
  * burin_drawing, which is drawn. `format`: "exr", "png", "png16", "tif", "tif16", the number is bits
- * per value; and of a drawing "svg".
+ * per value; and of a drawing "svg", "pdf", "dxf".
  * `style`: as in burin_draw(); NULL for a picture. `bytes` and `count` get the file, to be freed by burin_bytes_free().
  */
 BURIN_API int burin_encode(const void* picture_or_drawing, const char* format, const char* style, uint8_t** bytes,

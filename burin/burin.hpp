@@ -145,7 +145,7 @@ class Picture {
     }
     /// The whole picture for a display, of the view's size; see burin_pixels().
     void pixels(std::uint8_t* out, int channels) const { checked(burin_pixels(get(), out, channels)); }
-    /// The bytes of a file: "exr", "png", "png16", "tif", "tif16"; of a drawing also "svg".
+    /// The bytes of a file: "exr", "png", "png16", "tif", "tif16"; of a drawing also "svg", "pdf", "dxf".
     std::vector<std::byte> encode(const std::string& format) const { return encoded(get(), format); }
     /// Into a file, whose suffix says the format.
     void write(const std::string& path) const { checked(burin_write(get(), nullptr, nullptr, path.c_str())); }

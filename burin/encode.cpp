@@ -16,7 +16,7 @@
 #include "mesh/text_scan.h"
 #include "output/film_files.h"
 #include "output/paths/make_paths.h"
-#include "output/svg.h"
+#include "output/vector_files.h"
 
 namespace burin {
 namespace {
@@ -59,7 +59,7 @@ class GivenPicture {
 };
 
 /// A drawing as the text of a vector file.
-std::string vector_text(const void* given, const char* style) {
+std::string vector_text(const void* given, OutputFormat format, const char* style) {
     if (given == nullptr) throw UsageError("picture_or_drawing is NULL");
     if (*static_cast<const OutputKind*>(given) != OutputKind::drawing)
         throw UsageError("format: a vector file is made of a drawing of burin_find_lines(), not of a picture");
@@ -73,7 +73,8 @@ std::string vector_text(const void* given, const char* style) {
     const PictureSettings& picture = drawing.scene.picture;
     paths.paper = picture.background;
     if (!paths.paper && !picture.transparent) paths.paper = glm::vec3(1.0f);
-    return svg_of(paths);
+    std::vector<std::string> notes;
+    return vector_file_of(paths, format, {}, notes);
 }
 
 /// What can be written of a picture in this format.
@@ -100,7 +101,7 @@ int burin_encode(const void* picture_or_drawing, const char* format, const char*
         required(count, "count");
         MemorySink file;
         if (is_vector(as.format)) {
-            const std::string text = vector_text(picture_or_drawing, style);
+            const std::string text = vector_text(picture_or_drawing, as.format, style);
             file.write(text.data(), text.size());
         } else {
             const GivenPicture given(picture_or_drawing, style);
@@ -123,7 +124,7 @@ int burin_write(const void* picture_or_drawing, const char* format, const char* 
         const std::string file_path = &required(path, "path");
         const NamedFormat& as = format == nullptr ? format_of_path(file_path) : format_named(format);
         if (is_vector(as.format)) {
-            const std::string text = vector_text(picture_or_drawing, style);
+            const std::string text = vector_text(picture_or_drawing, as.format, style);
             AtomicFile file(file_path);
             file.write(text.data(), text.size());
             file.commit();

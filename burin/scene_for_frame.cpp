@@ -10,6 +10,7 @@
 #include "render/close_cracks.h"
 #include "render/copied_objects.h"
 #include "render/picture_notes.h"
+#include "scene/paper_camera.h"
 
 namespace burin {
 
@@ -101,12 +102,21 @@ void SceneForFrame::make_frame_of(const burin_view& view, const OptionsInput& op
     const ViewInput input = checked_view(view, scene_.picture, scene_.cameras);
     scene_.picture.width = input.width;
     scene_.picture.height = input.height;
+    fit_to_paper(scene_.picture);
+    if (scene_.picture.width != input.width || scene_.picture.height != input.height) {
+        // The view has proportions of its own.
+        scene_.picture.width = input.width;
+        scene_.picture.height = input.height;
+        scene_.picture.paper.size_mm.reset();
+    }
     if (input.samples) scene_.abuffer.samples = input.samples;
     if (input.frame) scene_.frame.number = *input.frame;
     const double aspect = static_cast<double>(input.width) / input.height;
     Camera camera;
     try {
-        camera = resolve_camera(input.camera, scene_points(scene_), aspect);
+        CameraSettings settings = input.camera;
+        see_on_paper(scene_.picture, settings);
+        camera = resolve_camera(settings, scene_points(scene_), aspect);
     } catch (const InputError& error) {
         throw UsageError("view: " + std::string(error.what()));
     }

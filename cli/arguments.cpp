@@ -9,6 +9,7 @@
 
 #include "base/suggestion.h"
 #include "cli/option_values.h"
+#include "cli/page_options.h"
 #include "cli/vector_options.h"
 #include "mesh/model.h"
 #include "mesh/text_scan.h"
@@ -27,8 +28,9 @@ using namespace option_values;
 struct Texts {
     std::string input, output, size, eye, target, up, fov, ortho, camera, method, mask, samples, lines, operators,
         supersample;
-    std::string width, color, dpi, frame, save_lines, find, crease, hidden, style, layers, frames, crop, threads,
-        memory, model_memory, stats, bits;
+    std::string width, color, frame, save_lines, find, crease, hidden, style, layers, frames, crop, threads, memory,
+        model_memory, stats, bits;
+    PageTexts page;
     VectorTexts vector;
     std::string repeat, progress, pixel, background, methods, compare_frames;
     std::vector<std::string> sets;
@@ -55,6 +57,7 @@ void add_file_options(CLI::App& app, Texts& t) {
                    "vector files: what is grouped within visible and hidden lines: class (default), object, or qi, a "
                    "layer for each number of surfaces in front");
     app.add_option("--ids", t.vector.ids, "vector files: paths have ids and data-* (all, default), or none");
+    app.add_flag("--merge", t.vector.merge, "vector files: paths of one look whose ends meet become one");
     app.add_option("--stats", t.stats, "write times and counts as JSON to this file; - = standard output");
 }
 
@@ -77,7 +80,7 @@ void add_input_options(CLI::App& app, Texts& t) {
 
 void add_scene_options(CLI::App& app, Texts& t) {
     add_input_options(app, t);
-    app.add_option("-r,--size", t.size, "image size in pixels, WxH (default 1920x1080)");
+    app.add_option("-r,--size", t.size, "image size in pixels, WxH (default 1920x1080); on paper its longer side");
     app.add_option("--eye", t.eye, "position of the camera, X,Y,Z");
     app.add_option("--target", t.target, "what the camera looks at, X,Y,Z");
     app.add_option("--up", t.up, "what is up in the picture, X,Y,Z (default 0,1,0)");
@@ -107,7 +110,7 @@ void add_scene_options(CLI::App& app, Texts& t) {
     app.add_option("--style", t.style,
                    "style sheet that says which lines are drawn and how: a name (see burin styles), or a file .toml");
     app.add_option("--frame", t.frame, "number of the frame, for `frame` and `time` in style sheets (default 0)");
-    app.add_option("--dpi", t.dpi, "pixels per inch, for lengths in mm and pt in style sheets (default 96)");
+    app.add_option("--dpi", t.page.dpi, "pixels per inch, for lengths in mm and pt in style sheets (default 96)");
     app.add_option("--set", t.sets,
                    "override a value of the scene, KEY=VALUE, or of the style sheet, style.PARAMETER=VALUE or "
                    "style.STYLE.KEY=VALUE; may be repeated")
@@ -116,6 +119,19 @@ void add_scene_options(CLI::App& app, Texts& t) {
         ->allow_extra_args(false);
     add_thread_options(app, t);
     add_strict_option(app, t);
+}
+
+void add_paper_options(CLI::App& app, Texts& t) {
+    app.add_option("--paper", t.page.paper,
+                   "A5 ... A0, letter, legal, these with -landscape, or WxHmm; -r says the longer side of its picture");
+    app.add_option("--margin", t.page.margin, "mm that the view leaves free: one number, or TOP,RIGHT,BOTTOM,LEFT");
+    app.add_option("--scale", t.page.scale, "scale of an orthographic view on paper, such as 1:2 (default: fitted)");
+    app.add_option("--unit", t.page.unit, "unit of the world for --scale: mm (default; m for glTF), cm, m, in or ft");
+    app.add_option("--views", t.page.views,
+                   "views on one sheet, comma separated: front back top bottom left right iso");
+    app.add_option("--projection", t.page.projection,
+                   "where these stand: first angle (default), as in Europe, or third, as in America");
+    app.add_option("--page", t.page.page, "paper, look and kind of file in one: iso128, patent, plotter or laser");
 }
 
 void add_method_option(CLI::App& app, Texts& t) {
@@ -257,7 +273,9 @@ void fill_input_options(const Texts& t, Arguments& a) {
 void fill_scene_options(const Texts& t, Arguments& a) {
     fill_input_options(t, a);
     if (!t.size.empty()) {
-        a.size = integers<2>("--size", t.size, 'x', "WIDTHxHEIGHT in pixels");
+        a.size_is_longer_side = to_integer(t.size, a.size.emplace()[0]);
+        a.size->back() = a.size->front();
+        if (!a.size_is_longer_side) a.size = integers<2>("--size", t.size, 'x', "WIDTHxHEIGHT in pixels");
         for (const int side : *a.size) {
             if (side < 1 || side > 65535) fail("--size", "width and height must be from 1 to 65535");
         }
@@ -326,10 +344,6 @@ void fill_scene_options(const Texts& t, Arguments& a) {
     a.line_color = t.color;
     a.style = t.style;
     if (!t.frame.empty()) a.frame = integer("--frame", t.frame, -1000000000, 1000000000);
-    if (!t.dpi.empty()) {
-        a.dpi = number("--dpi", t.dpi);
-        if (!(*a.dpi >= 1 && *a.dpi <= 100000)) fail("--dpi", "must be from 1 to 100000 pixels per inch");
-    }
     for (const std::string& set : t.sets) {
         const std::size_t equals = set.find('=');
         if (equals == std::string::npos || equals == 0) {
@@ -396,6 +410,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     app.require_subcommand(1);
     CLI::App* const render = app.add_subcommand("render", "draw a scene or a model");
     add_scene_options(*render, t);
+    add_paper_options(*render, t);
     add_method_option(*render, t);
     add_render_options(*render, t);
     CLI::App* const info = app.add_subcommand("info", "say what is in a scene or a model");
@@ -474,6 +489,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
                                : Command::explain;
         fill_scene_options(t, a);
         fill_render_options(t, a);
+        fill_page_options(t.page, a);
         fill_vector_options(t.vector, a);
         if (*compare) fill_compare_options(t, a);
         if (*explain) a.pixel = integers<2>("--pixel", t.pixel, ',', "X,Y");

@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "cli/page.h"
 #include "lines/line_class.h"
 #include "output/paths/vector_drawing.h"
 #include "render/film.h"
 #include "scene/scene_description.h"
+#include "scene/standard_views.h"
 
 namespace burin {
 
@@ -23,6 +25,7 @@ struct Arguments {
     std::string input;
     std::string output;
     std::optional<std::array<int, 2>> size;
+    bool size_is_longer_side = false;  ///< one number was given, which only paper makes a size of
     std::optional<glm::dvec3> eye, target, up;
     std::optional<double> fov_deg, ortho_height;
     std::string camera;
@@ -39,6 +42,13 @@ struct Arguments {
     bool saves_surface = false, finds_all = false;
     std::optional<int> frame;
     std::optional<double> dpi;
+    PagePreset page = PagePreset::none;
+    bool has_style_of_page = false;   ///< no other was given
+    std::vector<StandardView> views;  ///< on one sheet; empty: one, through a camera
+    ViewProjection view_projection = ViewProjection::first;
+    std::optional<glm::dvec2> paper_mm;
+    std::optional<std::array<double, 4>> margin_mm;  ///< top, right, bottom, left
+    std::optional<double> scale, unit_mm;
     std::optional<std::array<double, 2>> crease_angle_deg;  ///< from where to where creases fade in; or twice the same
     std::optional<HiddenStyle> hidden;
     LayerSet layers;
@@ -50,6 +60,7 @@ struct Arguments {
     double tolerance_px = 0.02, chord_sag_px = 0.05;
     bool cuts_dashes = false;         ///< of vector files; else dashes are left to the viewer
     bool names_paths = true;          ///< paths in vector files have ids and data-*
+    bool merges_paths = false;        ///< in vector files, where ends meet
     bool has_vector_options = false;  ///< any of these was given
     std::vector<Override> overrides;
     int bits = 8;

@@ -18,6 +18,7 @@
 #include "base/stopwatch.h"
 #include "cli/job.h"
 #include "cli/output_options.h"
+#include "cli/sheet_views.h"
 #include "cli/vector_output.h"
 #include "image/image_io.h"
 #include "mesh/text_scan.h"
@@ -138,7 +139,8 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method, b
         std::fputs("burin: note: only an EXR has --layers; this file gets the beauty layer\n", stderr);
     }
     if (a.has_vector_options && !is_vector(output.format)) {
-        std::fputs("burin: note: --tolerance, --chord-sag, --dashes, --group and --ids are for vector files\n", stderr);
+        std::fputs("burin: note: --tolerance, --chord-sag, --dashes, --group, --ids and --merge are for vector files\n",
+                   stderr);
     }
     if (output.format == OutputFormat::exr && (a.bits != Arguments().bits || !a.background.empty())) {
         std::fputs(
@@ -256,7 +258,8 @@ void run_render(const Arguments& a) {
     }
     const bool has_hidden_lines = refuse_hidden_lines(a, method, scene);
     if (has_paths) draw_by_sheet(scene);
-    const Camera camera = camera_of(scene, a);
+    const std::vector<ViewOnSheet> views = views_of(scene, a);
+    const Camera camera = views.empty() ? camera_of(scene, a) : views.front().camera;
     empty_copied_objects(scene);
     close_cracks(scene, camera, scene.picture.width, scene.picture.height);
     PreparedScene prepared;
@@ -268,8 +271,8 @@ void run_render(const Arguments& a) {
     LayerSet layers = layers_for(scene, a);
     if (output.format != OutputFormat::exr) layers = LayerSet{true, false, false, false, false, false, false, false};
     // An EXR is compressed while it is drawn; but not when times are taken.
-    const bool in_bands = output.format == OutputFormat::exr && a.repeat == 0 && method.finishes_in_bands != nullptr &&
-                          method.finishes_in_bands(frame);
+    const bool in_bands = output.format == OutputFormat::exr && a.repeat == 0 && views.empty() &&
+                          method.finishes_in_bands != nullptr && method.finishes_in_bands(frame);
     Film film = make_film(frame, layers, in_bands, output.path);
     RunOptions run{a.threads, &progress, a.memory_bytes};
     std::optional<BandWriter> writer;
@@ -285,11 +288,17 @@ void run_render(const Arguments& a) {
         };
     }
     VectorDrawing drawing;
+    const SheetViews sheet{scene, a, views, &prepared};
     const auto draw = [&] {
-        if (!has_paths) return method.render(frame, run, film);
+        if (!has_paths) return views.empty() ? method.render(frame, run, film) : sheet.draw(method, run, film);
         RenderStats stats;
-        const FoundLines lines = find_styled_lines(frame, run, film, stats);
-        drawing = draw_paths(lines, frame, a, times.paths.emplace(), stats.notes);
+        if (VectorStats& paths = times.paths.emplace(); views.empty()) {
+            const FoundLines lines = find_styled_lines(frame, run, film, stats);
+            drawing = draw_paths(lines, frame, a, paths, stats.notes);
+        } else {
+            stats = sheet.draw_as_paths(run, film, drawing, paths);
+        }
+        finish_drawing(scene.picture, a, drawing, *times.paths, stats.notes);
         return stats;
     };
     try {

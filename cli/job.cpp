@@ -11,6 +11,7 @@
 #include "mesh/text_scan.h"
 #include "render/picture_notes.h"
 #include "scene/color.h"
+#include "scene/paper_camera.h"
 #include "shading/sheet/style_sheet.h"
 
 namespace burin {
@@ -45,7 +46,7 @@ const CameraSettings& chosen_camera(const Scene& scene, const std::string& name)
 bool changes_view(const Arguments& a) { return a.eye || a.target || a.up || a.fov_deg || a.ortho_height; }
 
 /// The scene's camera; what the command line says about the view replaces it.
-CameraSettings camera_settings(const Scene& scene, const Arguments& a) {
+CameraSettings viewing_camera(const Scene& scene, const Arguments& a) {
     CameraSettings camera = chosen_camera(scene, a.camera);
     if (!changes_view(a)) return camera;
     if (camera.to_world) camera = CameraSettings{};
@@ -64,6 +65,77 @@ CameraSettings camera_settings(const Scene& scene, const Arguments& a) {
         camera.orthographic = true;
     }
     return camera;
+}
+
+/// That camera with the area of the paper that the view fills, and the height that its scale says.
+CameraSettings camera_settings(const Scene& scene, const Arguments& a) {
+    CameraSettings camera = viewing_camera(scene, a);
+    const PaperSettings& paper = scene.picture.paper;
+    if (paper.scale && a.ortho_height)
+        throw UsageError("--ortho: cannot stand beside picture.scale, which says the same; remove one");
+    try {
+        see_on_paper(scene.picture, camera);
+    } catch (const InputError& error) {
+        if (a.scale) throw UsageError("--scale: " + std::string(error.what()));
+        throw InputError(a.input + ": [picture] scale: " + error.what());
+    }
+    return camera;
+}
+
+/// Whether all that a scene shows comes from glTF files, which are in metres.
+bool is_all_gltf(const SceneDescription& scene) {
+    return std::all_of(scene.objects.begin(), scene.objects.end(), [](const ObjectDescription& object) {
+        const std::string suffix = lower_extension(object.file);
+        return suffix == ".glb" || suffix == ".gltf";
+    });
+}
+
+/// What the command line says about size and paper replaces what the scene says.
+void set_picture_size(const Arguments& a, SceneDescription& scene) {
+    PictureSettings& picture = scene.picture;
+    PaperSettings& paper = picture.paper;
+    const Page& page = page_of(a.page);
+    if (a.page != PagePreset::none && !paper.size_mm) paper.size_mm = paper_named(page.paper);
+    if (a.page != PagePreset::none && paper.margin_mm == std::array<double, 4>{}) paper.margin_mm = page.margin_mm;
+    if (a.paper_mm) paper.size_mm = a.paper_mm;
+    if (a.margin_mm) paper.margin_mm = *a.margin_mm;
+    if (a.scale) paper.scale = a.scale;
+    if (a.unit_mm) paper.unit_mm = a.unit_mm;
+    if (!paper.unit_mm) paper.unit_mm = is_all_gltf(scene) ? 1000 : 1;
+    if (a.dpi && paper.size_mm) {
+        throw UsageError("--dpi: cannot stand beside paper, whose size and that in pixels (-r) say it; remove one");
+    }
+    if (a.size_is_longer_side && !paper.size_mm) {
+        throw UsageError("--size: must be WIDTHxHEIGHT in pixels, got '" + std::to_string(a.size->front()) +
+                         "'; one number is enough with --paper");
+    }
+    if (a.size) {
+        picture.width = (*a.size)[0];
+        picture.height = (*a.size)[1];
+    }
+    if (a.dpi) picture.dpi = *a.dpi;
+    fit_to_paper(picture);
+    try {
+        size_within_margins_mm(picture);
+    } catch (const InputError& error) {
+        if (a.margin_mm || a.paper_mm || a.page != PagePreset::none)
+            throw UsageError("--margin: " + std::string(error.what()));
+        throw InputError(a.input + ": [picture] margin: " + error.what());
+    }
+}
+
+/// Notes a scene that does not fit on the paper at the scale that is wanted.
+void note_if_cut_off(const Scene& scene, CameraSettings camera, double aspect) {
+    if (!scene.picture.paper.scale || camera.to_world || camera.eye) return;
+    const double height = *camera.height;
+    camera.height.reset();
+    const double needed = camera.fit * resolve_camera(camera, scene_points(scene), aspect).height;
+    if (needed <= height) return;
+    const double fitting = *scene.picture.paper.scale * height / needed;
+    std::fprintf(stderr, "burin: note: at %s the view reaches beyond the %s; %s would fit\n",
+                 text_of_scale(*scene.picture.paper.scale).c_str(),
+                 scene.picture.paper.margin_mm == std::array<double, 4>{} ? "paper" : "margins",
+                 text_of_scale(round_scale_down(fitting)).c_str());
 }
 
 /// Whether a message begins with a place in a sheet.
@@ -86,13 +158,21 @@ PixelRect crop_of(const Arguments& a, int width, int height) {
 Scene load_input(const Arguments& a, const std::vector<OutputFile>& outputs) {
     refuse_to_overwrite(outputs, {a.input});
     SceneDescription description = describe_input(a);
+    set_picture_size(a, description);
     std::vector<std::string> files;
     if (description.sheet) {
         if (!description.sheet->file.empty()) files.push_back(description.sheet->file);
         SheetContext context;
-        context.height_px = a.size ? (*a.size)[1] : description.picture.height;
-        context.px_per_mm = a.dpi.value_or(description.picture.dpi) / 25.4;
-        use_sheet(description, sheet_as_wished(*description.sheet, a, context));
+        context.height_px = description.picture.height;
+        context.px_per_mm = description.picture.dpi / 25.4;
+        Arguments wished = a;
+        // ISO 128: thicker lines on sheets above A2.
+        constexpr double kLongerSideOfA2 = 594, kThickMm = 0.7;
+        const glm::dvec2 paper = size_in_mm(description.picture);
+        if (a.page == PagePreset::iso128 && a.has_style_of_page && !a.line_width_px &&
+            std::max(paper.x, paper.y) > kLongerSideOfA2)
+            wished.line_width_px = kThickMm * context.px_per_mm;
+        use_sheet(description, sheet_as_wished(*description.sheet, wished, context));
     }
     const std::vector<std::string> unread = description.unread_line_keys;
     for (const ObjectDescription& object : description.objects) {
@@ -106,10 +186,6 @@ Scene load_input(const Arguments& a, const std::vector<OutputFile>& outputs) {
     if (!a.quiet && a.command != Command::info) {  // which prints them with the rest
         for (const std::string& note : scene.notes)
             std::fprintf(stderr, "burin: note: %s\n", printable(note, 4000).c_str());
-    }
-    if (a.size) {
-        scene.picture.width = (*a.size)[0];
-        scene.picture.height = (*a.size)[1];
     }
     if (a.background == "transparent") {
         scene.picture.transparent = true;
@@ -135,7 +211,6 @@ Scene load_input(const Arguments& a, const std::vector<OutputFile>& outputs) {
         scene.lines.classes = LineClassSet::all();
     }
     if (a.frame) scene.frame.number = *a.frame;
-    if (a.dpi) scene.picture.dpi = *a.dpi;
     return scene;
 }
 
@@ -144,10 +219,22 @@ Camera camera_of(const Scene& scene, const Arguments& a) {
     const std::string place = settings.where.line > 0 ? to_string(settings.where) : a.input;
     const double aspect = static_cast<double>(scene.picture.width) / scene.picture.height;
     try {
+        if (!a.quiet) note_if_cut_off(scene, settings, aspect);
         return resolve_camera(settings, scene_points(scene), aspect);
     } catch (const InputError& error) {
         if (changes_view(a)) throw UsageError("--eye, --target, --up, --fov, --ortho: " + std::string(error.what()));
         throw InputError(place + ": " + error.what());
+    }
+}
+
+std::vector<ViewOnSheet> views_of(const Scene& scene, const Arguments& a) {
+    if (a.views.empty()) return {};
+    const glm::dvec3 up = a.up.value_or(scene.cameras.front().up.value_or(glm::dvec3(0, 1, 0)));
+    if (!(glm::length(up) > 0)) throw UsageError("--up: the vector is zero; give a direction");
+    try {
+        return views_on_sheet(a.views, a.view_projection, scene.picture, up, scene_points(scene));
+    } catch (const InputError& error) {
+        throw InputError(a.input + ": " + error.what());
     }
 }
 

@@ -18,6 +18,10 @@ Scene load_input(const Arguments& arguments, const std::vector<OutputFile>& outp
 /// The camera that the arguments ask for. Throws InputError and UsageError.
 Camera camera_of(const Scene& scene, const Arguments& arguments);
 
+/// The views on one sheet that the arguments ask for; none: one view, through camera_of(). Throws InputError and
+/// UsageError.
+std::vector<ViewOnSheet> views_of(const Scene& scene, const Arguments& arguments);
+
 /// The frame that the arguments ask for. The scene must outlive it. Throws InputError and UsageError.
 Frame frame_of(const Scene& scene, const Camera& camera, const Arguments& arguments,
                const PreparedScene* prepared = nullptr);

@@ -22,8 +22,6 @@ OutputOptions output_options(const Arguments& a) {
     const std::string suffix = lower_extension(options.path);
     if (const NamedFormat* const found = find_format_of_suffix(suffix)) {
         options.format = found->format;
-    } else if (suffix == ".pdf" || suffix == ".dxf") {
-        throw UsageError("--output: " + suffix + " is not in this version; burin writes " + suffixes_of_formats());
     } else {
         throw UsageError(
             "--output: " + (suffix.empty() ? "the name has no suffix" : "unknown kind of image '" + suffix + "'") +

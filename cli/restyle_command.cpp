@@ -138,6 +138,7 @@ void run_restyle(const Arguments& a) {
     VectorStats paths;
     if (has_paths) {
         drawing = draw_paths(file.lines, frame, a, paths, notes);
+        finish_drawing(scene.picture, a, drawing, paths, notes);
         if (!file.surface.pixels.empty()) notes.push_back("a vector file has lines only; the surfaces are left out");
     } else {
         draw_found_lines(frame, file.lines, output.threads, film, notes);

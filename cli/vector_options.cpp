@@ -16,7 +16,7 @@ void fill_vector_options(const VectorTexts& t, Arguments& a) {
         if (!(a.chord_sag_px >= 0 && a.chord_sag_px <= 10)) fail("--chord-sag", "must be from 0 to 10 pixels");
     }
     if (!t.dashes.empty() && t.dashes != "pattern" && t.dashes != "real") fail("--dashes", "must be pattern or real");
-    a.cuts_dashes = t.dashes == "real";
+    a.cuts_dashes = t.dashes.empty() ? page_of(a.page).cuts_dashes : t.dashes == "real";
     if (t.group == "object") {
         a.grouping = VectorGrouping::object;
     } else if (t.group == "qi") {
@@ -26,8 +26,9 @@ void fill_vector_options(const VectorTexts& t, Arguments& a) {
     }
     if (!t.ids.empty() && t.ids != "all" && t.ids != "none") fail("--ids", "must be all or none");
     a.names_paths = t.ids != "none";
-    a.has_vector_options =
-        !(t.tolerance.empty() && t.chord_sag.empty() && t.dashes.empty() && t.group.empty() && t.ids.empty());
+    a.merges_paths = t.merge;
+    a.has_vector_options = t.merge || !(t.tolerance.empty() && t.chord_sag.empty() && t.dashes.empty() &&
+                                        t.group.empty() && t.ids.empty());
 }
 
 }  // namespace burin

@@ -9,9 +9,10 @@ namespace burin {
 /// Options of vector files as they were typed.
 struct VectorTexts {
     std::string tolerance, chord_sag, dashes, group, ids;
+    bool merge = false;
 };
 
-/// Checks them. Throws UsageError.
+/// Checks them; the page is known. Throws UsageError.
 void fill_vector_options(const VectorTexts& texts, Arguments& arguments);
 
 }  // namespace burin

@@ -16,6 +16,11 @@ namespace burin {
 VectorDrawing draw_paths(const FoundLines& lines, const Frame& frame, const Arguments& arguments, VectorStats& stats,
                          std::vector<std::string>& notes);
 
+/// Gives a drawing its paper, and makes of it what the page of the arguments asks for. `notes`: gets
+/// what users should know.
+void finish_drawing(const PictureSettings& picture, const Arguments& arguments, VectorDrawing& drawing,
+                    VectorStats& stats, std::vector<std::string>& notes);
+
 /// Writes a drawing to its file. Throws InputError.
 void write_vector(const VectorDrawing& drawing, const Arguments& arguments, const OutputOptions& output);
 

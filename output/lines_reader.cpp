@@ -140,6 +140,7 @@ class MetadataReader {
             list.fail("the direction must have the length 1");
         return light;
     }
+    bool has(const char* key) const { return data_.has(key); }
 
   private:
     /// Metadata of safetensors are texts; numbers and lists stand in them as JSON.
@@ -177,6 +178,11 @@ void read_picture(const ArrayReader& in, const MetadataReader& data, FoundLines&
     lines.fps = data.number("fps");
     lines.dpi = data.number("dpi");
     if (!(lines.fps > 0) || !(lines.dpi > 0)) in.fail("__metadata__: fps and dpi must be greater than 0");
+    if (data.has("paper_mm")) {
+        const std::array<double, 2> mm = data.pair("paper_mm");
+        if (!(mm[0] > 0 && mm[1] > 0)) in.fail("__metadata__.paper_mm: must be greater than 0");
+        lines.paper_mm = {mm[0], mm[1]};
+    }
     lines.crease_angle_deg = data.pair("crease_angle");
     lines.scene_light = data.light("light");
     lines.has_smooth_contours = data.integer("smooth_contours", 0, 1) == 1;

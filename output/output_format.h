@@ -10,10 +10,10 @@
 
 namespace burin {
 
-enum class OutputFormat : std::uint8_t { exr, png, tiff, svg };
+enum class OutputFormat : std::uint8_t { exr, png, tiff, svg, pdf, dxf };
 
 /// Whether files of a format have paths instead of pixels.
-constexpr bool is_vector(OutputFormat format) { return format == OutputFormat::svg; }
+constexpr bool is_vector(OutputFormat format) { return format >= OutputFormat::svg; }
 
 /// A format with its number of bits per value, as the library names it.
 struct NamedFormat {
@@ -26,7 +26,8 @@ struct NamedFormat {
 constexpr NamedFormat kNamedFormats[] = {
     {"exr", OutputFormat::exr, 8, ".exr"},     {"png", OutputFormat::png, 8, ".png"},
     {"png16", OutputFormat::png, 16, ".png"},  {"tif", OutputFormat::tiff, 8, ".tif"},
-    {"tif16", OutputFormat::tiff, 16, ".tif"}, {"svg", OutputFormat::svg, 8, ".svg"}};
+    {"tif16", OutputFormat::tiff, 16, ".tif"}, {"svg", OutputFormat::svg, 8, ".svg"},
+    {"pdf", OutputFormat::pdf, 8, ".pdf"},     {"dxf", OutputFormat::dxf, 8, ".dxf"}};
 
 /// The suffix that files of a format have.
 constexpr std::string_view suffix_of(OutputFormat format) {

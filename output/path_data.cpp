@@ -110,6 +110,24 @@ std::string short_number(double value) {
     return number == "-0" ? "0" : number;
 }
 
+DashPattern dash_pattern(const VectorStyle& style, float phase_px) {
+    DashPattern pattern;
+    if (style.dash_px.empty()) return pattern;
+    const double ends = style.caps == StrokeCaps::round ? static_cast<double>(style.width_px) : 0;
+    double first = 0;
+    for (std::size_t i = 0; i + 1 < style.dash_px.size(); i += 2) {
+        const auto on = static_cast<double>(style.dash_px[i]), off = static_cast<double>(style.dash_px[i + 1]);
+        const double shorter = std::min(on, ends);
+        if (i == 0) first = shorter;
+        const double next =
+            std::min(static_cast<double>(style.dash_px[i + 2 < style.dash_px.size() ? i + 2 : 0]), ends);
+        pattern.lengths.push_back(on - shorter);
+        pattern.lengths.push_back(off + 0.5 * (shorter + next));
+    }
+    pattern.phase = static_cast<double>(phase_px) - 0.5 * first;
+    return pattern;
+}
+
 std::string path_data(const VectorPath& path, std::span<const PathStep> steps) {
     PathText text;
     text.move(path.start);

@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "output/paths/vector_drawing.h"
 
@@ -12,6 +13,14 @@ namespace burin {
 std::string text_of_hundredths(long long hundredths);
 /// A number with up to four decimals.
 std::string short_number(double value);
+
+/// Dashes as viewers cut them: lengths of dashes and gaps in turn, and where in them a path begins.
+struct DashPattern {
+    std::vector<double> lengths;
+    double phase = 0;
+};
+/// Round ends belong to a dash: it is shorter by the width of the pen, and a dash that is no longer is a dot.
+DashPattern dash_pattern(const VectorStyle& style, float phase_px);
 
 /// The value of SVG's attribute `d`: relative commands between points that are rounded to 1/100, so that errors do not
 /// add up.

@@ -8,6 +8,7 @@
 
 #include "image/image_io.h"
 #include "output/path_data.h"
+#include "output/vector_layers.h"
 #include "output/xml_text.h"
 #include "shading/ink/line_random.h"
 
@@ -16,10 +17,9 @@ namespace {
 
 std::string hex_color(glm::vec3 linear) {
     std::string text = "#";
+    const glm::ivec3 codes = srgb_codes(linear);
     for (int k = 0; k < 3; ++k) {
-        const float code = srgb_from_linear(std::clamp(linear[k], 0.0f, 1.0f));
-        const int byte = std::clamp(static_cast<int>(code * 255.0f + 0.5f), 0, 255);
-        for (const int digit : {byte / 16, byte % 16}) text += "0123456789abcdef"[digit];
+        for (const int digit : {codes[k] / 16, codes[k] % 16}) text += "0123456789abcdef"[digit];
     }
     if (text[1] == text[2] && text[3] == text[4] && text[5] == text[6]) return {'#', text[1], text[3], text[5]};
     return text;
@@ -57,22 +57,13 @@ using Attributes = std::array<std::string, kAttributeCount>;
 /// What is drawn without attributes below the root.
 Attributes defaults() { return {"none", "#000", "1", "1", "1", "round", "none", "0", "", "", "", ""}; }
 
-/// Round ends belong to a dash: it is shorter by the width of the pen, and a dash that is no longer is a dot.
 void set_dashes(const VectorStyle& style, float phase_px, Attributes& a) {
-    if (style.dash_px.empty()) return;
-    const double ends = style.caps == StrokeCaps::round ? static_cast<double>(style.width_px) : 0;
-    double first = 0;
+    const DashPattern pattern = dash_pattern(style, phase_px);
+    if (pattern.lengths.empty()) return;
     std::string text;
-    for (std::size_t i = 0; i + 1 < style.dash_px.size(); i += 2) {
-        const auto on = static_cast<double>(style.dash_px[i]), off = static_cast<double>(style.dash_px[i + 1]);
-        const double shorter = std::min(on, ends);
-        if (i == 0) first = shorter;
-        double next = std::min(static_cast<double>(style.dash_px[i + 2 < style.dash_px.size() ? i + 2 : 0]), ends);
-        text +=
-            (text.empty() ? "" : " ") + short_number(on - shorter) + " " + short_number(off + 0.5 * (shorter + next));
-    }
+    for (const double length : pattern.lengths) text += (text.empty() ? "" : " ") + short_number(length);
     a[kDashes] = text;
-    a[kDashPhase] = short_number(static_cast<double>(phase_px) - 0.5 * first);
+    a[kDashPhase] = short_number(pattern.phase);
 }
 
 class SvgWriter {
@@ -88,13 +79,13 @@ class SvgWriter {
 
   private:
     void begin_root() {
-        const PixelRect& crop = drawing_.crop;
-        const auto mm = [this](int px) { return short_number(px * 25.4 / drawing_.dpi) + "mm"; };
+        const ShownArea area = shown_area(drawing_);
         out_ += "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"";
         out_ += " xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" version=\"1.1\"";
-        out_ += " width=\"" + mm(crop.width()) + "\" height=\"" + mm(crop.height()) + "\" viewBox=\"";
-        for (const int v : {crop.x0, crop.y0, crop.width(), crop.height()})
-            out_ += (out_.back() == '"' ? "" : " ") + std::to_string(v);
+        out_ += " width=\"" + short_number(area.size_mm().x) + "mm\" height=\"" + short_number(area.size_mm().y) +
+                "mm\" viewBox=\"";
+        for (const double v : {area.low_px.x, area.low_px.y, area.size_px.x, area.size_px.y})
+            out_ += (out_.back() == '"' ? "" : " ") + short_number(v);
         out_ += '"';
         root_ = defaults();
         if (!drawing_.paths.empty()) {
@@ -107,10 +98,10 @@ class SvgWriter {
         out_ += " stroke-linejoin=\"round\">\n";
         if (drawing_.paper) {
             out_ += "<rect id=\"paper\"";
-            add("x", std::to_string(crop.x0));
-            add("y", std::to_string(crop.y0));
-            add("width", std::to_string(crop.width()));
-            add("height", std::to_string(crop.height()));
+            add("x", short_number(area.low_px.x));
+            add("y", short_number(area.low_px.y));
+            add("width", short_number(area.size_px.x));
+            add("height", short_number(area.size_px.y));
             add("fill", hex_color(*drawing_.paper));
             out_ += " stroke=\"none\"/>\n";
         }
@@ -119,22 +110,15 @@ class SvgWriter {
     /// Adds the layer that begins with a group, and returns the number of the first group after it.
     std::size_t add_layer(std::size_t begin) {
         const VectorGroup& first = drawing_.groups[begin];
-        const auto is_of_layer = [&first](const VectorGroup& g) {
-            return g.is_hidden == first.is_hidden && g.invisibility == first.invisibility;
-        };
         std::string name = first.is_hidden ? "hidden" : "visible";
         if (first.invisibility > 0) name += "-" + std::to_string(first.invisibility);
-        std::string label = first.is_hidden ? "2 hidden" : "1 visible";
-        if (first.invisibility > 0)
-            label = std::to_string(1 + first.invisibility) + " hidden " + std::to_string(first.invisibility);
         out_ += "<g";
         add("id", unique("layer-" + name));
         add("inkscape:groupmode", "layer");
-        add("inkscape:label", label);
+        add("inkscape:label", label_of_layer(first));
         out_ += ">\n";
-        for (; begin < drawing_.groups.size() && is_of_layer(drawing_.groups[begin]); ++begin) {
-            if (is_of_layer(drawing_.groups[begin])) add_group(drawing_.groups[begin], name);
-        }
+        for (; begin < drawing_.groups.size() && is_one_layer(drawing_.groups[begin], first); ++begin)
+            add_group(drawing_.groups[begin], name);
         out_ += "</g>\n";
         return begin;
     }
@@ -143,7 +127,7 @@ class SvgWriter {
         const std::span<const VectorPath> paths = drawing_.paths_of(group);
         Attributes common = common_of(paths);
         const bool is_object = drawing_.grouping == VectorGrouping::object;
-        std::string id = layer + "-";
+        std::string id = layer + "-" + view_prefix(group);
         if (is_object) {
             id += group.object == 0 ? "none" : "o" + hex(LineHash().add(object_name(group.object)).bits());
         } else {
@@ -173,7 +157,9 @@ class SvgWriter {
     void add_path(const VectorPath& path, const VectorGroup& group, const Attributes& inherited) {
         out_ += "<path";
         const std::span<const std::uint64_t> edges = drawing_.edges_of(path);
-        if (options_.has_names) add("id", unique((group.is_hidden ? "h" : "v") + (edges.empty() ? "" : hex(edges[0]))));
+        if (options_.has_names)
+            add("id",
+                unique(view_prefix(group) + (group.is_hidden ? "h" : "v") + (edges.empty() ? "" : hex(edges[0]))));
         const Attributes own = attributes_of(path);
         for (std::size_t a = 0; a < kAttributeCount; ++a) {
             if (own[a].empty() || own[a] == inherited[a] || (a >= kStyleCount && !options_.has_names)) continue;
@@ -221,6 +207,10 @@ class SvgWriter {
             }
         }
         return common;
+    }
+    /// What begins the ids of one of several views.
+    std::string view_prefix(const VectorGroup& group) const {
+        return group.view > 0 ? drawing_.views[group.view - 1] + "-" : "";
     }
     const std::string& object_name(std::uint32_t object) const { return drawing_.objects[object - 1]; }
 

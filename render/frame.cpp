@@ -111,7 +111,7 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
         }
     }
     surfaces.projection = camera.projection(width, height, 0);
-    set_reach(surfaces, view_boxes, glm::length(camera.eye()));
+    set_reach(surfaces, view_boxes, glm::length(camera.eye()), {width, height});
     return frame;
 }
 

@@ -124,10 +124,12 @@ double nearest_surface(const SurfaceSet& surfaces, std::span<const Box> view_box
 }
 
 /// Nothing that is seen is cut away, unless it is nearer than kNearest.
-double near_distance(const SurfaceSet& surfaces, std::span<const Box> view_boxes, double farthest) {
+double near_distance(const SurfaceSet& surfaces, std::span<const Box> view_boxes, double farthest,
+                     glm::dvec2 picture_px) {
     const Projection& p = surfaces.projection;
     const double usual = kNear * farthest;
-    const double to_corner = glm::length(glm::dvec3(p.center_px / p.focal_px, 1));  // of the picture, at depth 1
+    const glm::dvec2 corner_px = glm::max(p.center_px, picture_px - p.center_px);
+    const double to_corner = glm::length(glm::dvec3(corner_px / p.focal_px, 1));  // of the picture, at depth 1
     const double nearest = nearest_surface(surfaces, view_boxes, usual * to_corner);
     return nearest < usual * to_corner ? std::max(0.5 * nearest / to_corner, kNearest * farthest) : usual;
 }
@@ -147,7 +149,7 @@ double farthest_on_screen(const SurfaceSet& surfaces, double otherwise) {
 
 }  // namespace
 
-void set_reach(SurfaceSet& surfaces, std::span<const Box> view_boxes, double eye_distance) {
+void set_reach(SurfaceSet& surfaces, std::span<const Box> view_boxes, double eye_distance, glm::dvec2 picture_px) {
     Projection& projection = surfaces.projection;
     const Box all = around(view_boxes);
     double farthest = 0, depth = 1;
@@ -156,7 +158,7 @@ void set_reach(SurfaceSet& surfaces, std::span<const Box> view_boxes, double eye
         surfaces.coordinate_error = coordinate_error(surfaces, view_boxes, half_diagonal(all), farthest + eye_distance);
         depth = -all.low.z;
     }
-    if (!projection.orthographic) projection.near_distance = near_distance(surfaces, view_boxes, farthest);
+    if (!projection.orthographic) projection.near_distance = near_distance(surfaces, view_boxes, farthest, picture_px);
     const double depth_px =
         projection.orthographic ? (all.high.z - all.low.z) * projection.focal_px : projection.focal_px;
     if (!all.is_empty() && depth_px > kDeepestPx) depth = farthest_on_screen(surfaces, depth);

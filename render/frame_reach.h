@@ -15,6 +15,6 @@ namespace burin {
 /// One number for the whole scene does for most. In a scene that is much larger than some of its
 /// objects, such as a part on a huge ground or beside a marker far away, it would blur these
 /// objects or cut them off; there it is found from the meshes.
-void set_reach(SurfaceSet& surfaces, std::span<const Box> view_boxes, double eye_distance);
+void set_reach(SurfaceSet& surfaces, std::span<const Box> view_boxes, double eye_distance, glm::dvec2 picture_px);
 
 }  // namespace burin

@@ -83,6 +83,7 @@ FoundLines found_lines(LineDrawing drawing, const Frame& frame, int threads) {
     lines.frame = frame.scene->frame.number;
     lines.fps = frame.scene->frame.fps;
     lines.dpi = frame.scene->picture.dpi;
+    lines.paper_mm = frame.scene->picture.paper.size_mm.value_or(glm::dvec2(0.0));
     const LineSettings& settings = frame.scene->lines;
     lines.crease_angle_deg = {settings.crease_fade().from_deg, settings.crease_fade().to_deg};
     lines.has_smooth_contours = settings.contours == Contours::smooth;

@@ -152,6 +152,7 @@ Camera from_matrix(const CameraSettings& s) {
     camera.to_world = rigid(orientation(back, up), glm::dvec3(m[3]));
     camera.fov_deg = s.fov_deg;
     camera.height = s.height.value_or(1);
+    camera.area = s.area;
     return camera;
 }
 
@@ -166,8 +167,9 @@ glm::dmat4 Camera::to_view() const {
 Projection Camera::projection(int width, int height_px, double near_distance) const {
     Projection p;
     p.orthographic = orthographic;
-    p.center_px = {0.5 * width, 0.5 * height_px};
-    p.focal_px = orthographic ? height_px / height : 0.5 * height_px / std::tan(glm::radians(fov_deg) / 2);
+    p.center_px = 0.5 * (area.low + area.high) * glm::dvec2(width, height_px);
+    const double own_px = height_px * (area.high.y - area.low.y);
+    p.focal_px = orthographic ? own_px / height : 0.5 * own_px / std::tan(glm::radians(fov_deg) / 2);
     p.near_distance = near_distance;
     return p;
 }
@@ -191,6 +193,8 @@ Box box_of(const PointSource& points) {
 
 Camera resolve_camera(const CameraSettings& settings, const PointSource& points, double aspect) {
     check(settings);
+    const glm::dvec2 share = settings.area.high - settings.area.low;
+    aspect *= share.x / share.y;
     if (settings.to_world) return from_matrix(settings);
 
     const bool fits = !settings.eye || (settings.orthographic && !settings.height);
@@ -224,6 +228,7 @@ Camera resolve_camera(const CameraSettings& settings, const PointSource& points,
     Camera camera;
     camera.orthographic = settings.orthographic;
     camera.fov_deg = settings.fov_deg;
+    camera.area = settings.area;
     const double nearest = 0.05 * radius;
     const double half_y = settings.fit * std::tan(glm::radians(settings.fov_deg) / 2);
     if (settings.orthographic) {

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "mesh/box.h"
+#include "scene/paper.h"
 #include "view/projection.h"
 
 // Camera settings become a camera: what they leave open is chosen so that the scene fills the picture.
@@ -28,6 +29,7 @@ struct CameraSettings {
     double fit = 0.95;                    ///< part of the picture that the scene fills, if fitted
     SourcePosition where;                 ///< in the scene file, for messages; can be unknown
     std::optional<glm::dmat4> to_world;   ///< instead of eye, target, up (cameras of glTF files)
+    ViewArea area;                        ///< of the picture: what fov, height and fit are about
 };
 
 /// A camera with nothing left open.
@@ -36,6 +38,7 @@ struct Camera {
     glm::dmat4 to_world{1.0};  ///< rigid: the columns are right, up, back and the eye's position
     double fov_deg = 35;       ///< perspective only
     double height = 1;         ///< orthographic only
+    ViewArea area;             ///< of the picture: fov and height are its, and the view axis meets its middle
 
     glm::dvec3 eye() const { return glm::dvec3(to_world[3]); }
     /// World to view space.
@@ -68,7 +71,7 @@ void for_each_point(const PointSource& points, const Visit& visit) {
 /// The smallest box around all points.
 Box box_of(const PointSource& points);
 
-/// Fills in what the settings leave open. `aspect` is width / height of the picture.
+/// Fills in what the settings leave open. `aspect` is width / height of the whole picture.
 ///
 /// Throws InputError (message without a place) for settings that define no view: eye = target, up
 /// along the view, a field of view outside of (0, 180), a height that is not positive, anything

@@ -13,6 +13,7 @@
 #include "mesh/subdivide.h"
 #include "scene/camera.h"
 #include "scene/method_settings.h"
+#include "scene/paper.h"
 #include "shading/line_style.h"
 #include "shading/surface/light.h"
 #include "shading/surface_shader.h"
@@ -31,6 +32,7 @@ struct PictureSettings {
     std::optional<glm::vec3> background;  ///< linear RGB
     double dpi = 96;                      ///< pixels per inch, for lengths in mm and pt
     bool transparent = false;             ///< PNG and TIFF get an alpha channel instead of white paper
+    PaperSettings paper;                  ///< of its size; fit_to_paper() has made width, height and dpi follow
 };
 
 /// Which frame of an animation the picture is: what `frame` and `time` are in a style sheet.

@@ -191,6 +191,7 @@ class SceneReader {
             picture.height = static_cast<int>((*size)[1]);
         }
         picture.dpi = t.number("dpi", {1, 100000}).value_or(picture.dpi);
+        read_paper(t);
         if (t.has("background")) {
             // A colour, or the word that asks for none.
             if (t.is_text("background") && t.text("background") == "transparent") {
@@ -200,6 +201,36 @@ class SceneReader {
             }
         }
         t.finish();
+    }
+
+    void read_paper(TomlReader& t) {
+        PaperSettings& paper = scene_.picture.paper;
+        if (const auto name = t.text("paper")) {
+            paper.size_mm = paper_named(*name);
+            if (!paper.size_mm) t.fail("paper", "must be one of " + names_of_papers());
+            if (t.has("dpi"))
+                t.fail("dpi", "cannot stand beside paper, whose size and that in pixels say it; remove one");
+        }
+        if (t.is_number("margin")) {
+            paper.margin_mm.fill(*t.number("margin", {0, 5000}));
+        } else if (const auto sides = t.numbers("margin", 4)) {
+            for (std::size_t i = 0; i < 4; ++i) {
+                paper.margin_mm[i] = (*sides)[i];
+                if (!(paper.margin_mm[i] >= 0 && paper.margin_mm[i] <= 5000))
+                    t.fail("margin", "must be from 0 to 5000 mm");
+            }
+        }
+        if (t.is_number("scale")) {
+            paper.scale = t.number("scale", {1e-12, 1e12});
+        } else if (const auto text = t.text("scale")) {
+            paper.scale = scale_named(*text);
+            if (!paper.scale) t.fail("scale", "must be a scale like \"1:2\" or \"5:1\"");
+        }
+        if (const auto unit = t.text("unit")) {
+            paper.unit_mm = unit_named(*unit);
+            if (!paper.unit_mm) t.fail("unit", "must be \"mm\", \"cm\", \"m\", \"in\" or \"ft\"");
+        }
+        fit_to_paper(scene_.picture);
     }
 
     void read_frames(TomlReader& t) {

@@ -41,10 +41,10 @@ EllipseArc ellipse_of_arc(glm::dvec2 start, const PathStep& arc) {
     return ellipse;
 }
 
-std::vector<PathStep> cubics_of_arc(glm::dvec2 start, const PathStep& arc) {
+std::vector<PathStep> cubics_of_arc(glm::dvec2 start, const PathStep& arc, int parts_of_quarter) {
     const EllipseArc ellipse = ellipse_of_arc(start, arc);
-    const int parts =
-        std::max(1, static_cast<int>(std::ceil(std::abs(ellipse.sweep) / (0.5 * std::numbers::pi) - 1e-6)));
+    const int parts = std::max(
+        1, static_cast<int>(std::ceil(std::abs(ellipse.sweep) / (0.5 * std::numbers::pi) * parts_of_quarter - 1e-6)));
     const double reach = 4.0 / 3 * std::tan(ellipse.sweep / parts / 4);
     const auto tangent = [&](double share) {
         const double angle = ellipse.begin + ellipse.sweep * share;

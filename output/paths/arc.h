@@ -18,7 +18,8 @@ struct EllipseArc {
 };
 EllipseArc ellipse_of_arc(glm::dvec2 start, const PathStep& arc);
 
-/// An arc as cubics of at most a quarter of an ellipse, for what knows no arcs.
-std::vector<PathStep> cubics_of_arc(glm::dvec2 start, const PathStep& arc);
+/// An arc as cubics, for what knows no arcs. Those of a quarter of an ellipse are off by 3e-4 of its radius, those of
+/// half of that by 4e-6.
+std::vector<PathStep> cubics_of_arc(glm::dvec2 start, const PathStep& arc, int parts_of_quarter = 1);
 
 }  // namespace burin

@@ -74,6 +74,7 @@ VectorDrawing vector_drawing_of(InkedLines inked, const FoundLines& found, const
     drawing.height_px = found.height_px;
     drawing.crop = options.crop;
     drawing.dpi = found.dpi;
+    drawing.paper_mm = found.paper_mm;
     drawing.grouping = options.grouping;
     for (const ObjectOfLines& object : found.objects) drawing.objects.push_back(object.name);
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "output/paths/fit_path.h"
 #include "output/paths/vector_drawing.h"
 #include "shading/ink/found_lines.h"
@@ -17,6 +19,7 @@ struct VectorStats {
     std::size_t strokes = 0, chained = 0, paths = 0;
     std::size_t mean_inks = 0;  ///< strokes whose colour or opacity varies: their paths have the means
     double chain_s = 0, clean_s = 0, fit_s = 0;
+    std::optional<std::array<double, 2>> pen_travel_mm;  ///< between paths, before and after they were sorted
 };
 
 /// Makes a drawing of lines with their looks: joins strokes to the longest paths, takes away what is drawn twice, and

@@ -61,6 +61,7 @@ struct VectorGroup {
     bool is_hidden = false;
     std::uint8_t invisibility = 0;  ///< of all its paths if the drawing is grouped by that
     std::uint32_t set = 0;          ///< in VectorDrawing::sets
+    std::uint32_t view = 0;         ///< in VectorDrawing::views, from 1; 0: the only one
     LineClass line_class = LineClass::silhouette;
     std::uint32_t object = 0;  ///< of all its paths if the drawing is grouped by objects
     std::size_t first_path = 0, path_count = 0;
@@ -74,6 +75,7 @@ struct VectorDrawing {
     int width_px = 0, height_px = 0;  ///< of the whole picture
     PixelRect crop;                   ///< what is shown of it
     double dpi = 96;
+    glm::dvec2 paper_mm{0.0};        ///< exact size of the sheet, of which the pixels are rounded; 0: as dpi says
     std::optional<glm::vec3> paper;  ///< linear RGB; none: transparent
     VectorGrouping grouping = VectorGrouping::line_class;
 
@@ -86,6 +88,7 @@ struct VectorDrawing {
     std::vector<VectorStyle> styles;
     std::vector<std::string> objects;  ///< names by number, from 1
     std::vector<std::string> sets;     ///< names of line sets
+    std::vector<std::string> views;    ///< names of views on one sheet, from 1
 
     std::span<const PathStep> steps_of(const VectorPath& path) const {
         return std::span(steps).subspan(path.first_step, path.step_count);

@@ -56,6 +56,7 @@ struct FoundLines {
     std::shared_ptr<const ShadowCasters> casters;
     int frame = 0;
     double fps = 24, dpi = 96;
+    glm::dvec2 paper_mm{0.0};  ///< size of the sheet, of which width_px and height_px are rounded; 0: none
 };
 
 /// What is to be known of lines.

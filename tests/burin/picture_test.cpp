@@ -81,7 +81,7 @@ TEST(LibraryPicture, WhatCannotBeWrittenIsSaid) {
     const Picture picture = scene.render({.width = 32, .height = 24});
     std::string text;
     EXPECT_TRUE(failure_of([&] { picture.encode("jpg"); }, &text) == BURIN_BAD_ARGUMENT);
-    EXPECT_EQ(text, "unknown format 'jpg'; known are exr png png16 tif tif16 svg");
+    EXPECT_EQ(text, "unknown format 'jpg'; known are exr png png16 tif tif16 svg pdf dxf");
     EXPECT_EQ(failure_of([&] { picture.write(folder.file("a.jpg")); }), BURIN_BAD_ARGUMENT);
     EXPECT_EQ(failure_of([&] { picture.write(folder.file("none/a.png")); }), BURIN_BAD_INPUT);
     const std::string locked = folder.write("locked.png", "mine");

@@ -195,15 +195,18 @@ TEST(LibraryStyle, SetsHaveLayersOfTheirOwn) {
 
 TEST(LibraryStyle, DrawingsAreWrittenAsPaths) {
     const TemporaryFolder folder;
-    const ProgramResult result = run_burin(folder.path(), {"render", kScenes + "cube.toml", "--size", "160x120", "-q",
-                                                           "--style", "pencil", "-o", "program.svg"});
-    EXPECT_EQ(result.status, 0) << result.err;
     Scene scene = Scene::load(kScenes + "cube.toml");
     scene.set_style("pencil");
     const Drawing drawing = scene.find_lines(kView);
-    const std::vector<std::byte> svg = drawing.encode("svg");
-    EXPECT_TRUE(std::string(reinterpret_cast<const char*>(svg.data()), svg.size()) ==
-                read_file(folder.file("program.svg")));
+    for (const std::string format : {"svg", "pdf", "dxf"}) {
+        const ProgramResult result = run_burin(folder.path(), {"render", kScenes + "cube.toml", "--size", "160x120",
+                                                               "-q", "--style", "pencil", "-o", "program." + format});
+        EXPECT_EQ(result.status, 0) << result.err;
+        const std::vector<std::byte> file = drawing.encode(format.c_str());
+        EXPECT_TRUE(std::string(reinterpret_cast<const char*>(file.data()), file.size()) ==
+                    read_file(folder.file("program." + format)))
+            << format;
+    }
     EXPECT_THROW(scene.render(kView).encode("svg"), Error);
 }
 

@@ -64,7 +64,7 @@ TEST_F(Usage, WhatIsNotInThisVersion) {
     const std::string words = "not in this version";
     expect_bad_options({"--frames", "1-10"}, words);
     expect_bad_options({"-f", "1,5"}, words);
-    for (const char* output : {"a.pdf", "a.dxf", "a.####.exr", "a.%04d.png"}) {
+    for (const char* output : {"a.####.exr", "a.%04d.png", "a.####.pdf"}) {
         expect_refused({"render", "cube.obj", "-o", output}, words);
     }
 }

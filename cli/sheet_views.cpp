@@ -1,0 +1,70 @@
+#include "cli/sheet_views.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/stream_store.h"
+#include "cli/job.h"
+#include "methods/abuffer.h"
+#include "output/paths/view_sheet.h"
+
+namespace burin {
+namespace {
+
+void add(const RenderStats& more, RenderStats& sum) {
+    for (double RenderStats::*stage : {&RenderStats::prepare_s, &RenderStats::raster_s, &RenderStats::resolve_s,
+                                       &RenderStats::lines_s, &RenderStats::shade_s, &RenderStats::write_s})
+        sum.*stage += more.*stage;
+    sum.triangles = more.triangles;
+    sum.fragments += more.fragments;
+    sum.threads = more.threads;
+    for (const std::string& note : more.notes) {
+        if (std::find(sum.notes.begin(), sum.notes.end(), note) == sum.notes.end()) sum.notes.push_back(note);
+    }
+}
+
+PixelRect cell_of(const ViewArea& area, int width, int height) {
+    const auto pixel = [](double share, int side) {
+        return std::clamp(static_cast<int>(std::lround(share * side)), 0, side);
+    };
+    return {pixel(area.low.x, width), pixel(area.low.y, height), pixel(area.high.x, width), pixel(area.high.y, height)};
+}
+
+}  // namespace
+
+RenderStats SheetViews::draw(const Method& method, const RunOptions& run, Film& film) const {
+    const PixelRect whole = film.crop();
+    for (int y = whole.y0; y < whole.y1; ++y) film.put_background(whole.x0, whole.x1, y);
+    finish_stream_stores();
+    RenderStats sum;
+    for (const ViewOnSheet& view : views) {
+        Frame frame = frame_of(scene, view.camera, arguments, prepared);
+        frame.crop = cell_of(view.camera.area, frame.width, frame.height);
+        if (frame.crop.width() > 0 && frame.crop.height() > 0) add(method.render(frame, run, film), sum);
+    }
+    return sum;
+}
+
+RenderStats SheetViews::draw_as_paths(const RunOptions& run, Film& film, VectorDrawing& drawing,
+                                      VectorStats& stats) const {
+    RenderStats sum;
+    drawing = {};
+    for (const ViewOnSheet& view : views) {
+        const Frame frame = frame_of(scene, view.camera, arguments, prepared);
+        RenderStats found;
+        const FoundLines lines = find_styled_lines(frame, run, film, found);
+        VectorStats paths;
+        add_view(draw_paths(lines, frame, arguments, paths, found.notes),
+                 std::string(kStandardViewNames[static_cast<std::size_t>(view.view)]), drawing);
+        add(found, sum);
+        stats.strokes += paths.strokes;
+        stats.chained += paths.chained;
+        stats.mean_inks += paths.mean_inks;
+        stats.chain_s += paths.chain_s;
+        stats.clean_s += paths.clean_s;
+        stats.fit_s += paths.fit_s;
+    }
+    return sum;
+}
+
+}  // namespace burin

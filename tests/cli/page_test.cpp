@@ -1,0 +1,269 @@
+// Paper, pages and sheets of views, through the program.
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "image/exr_io.h"
+#include "image/exr_reader.h"
+#include "tests/cli/models.h"
+#include "tests/cli/program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace burin::test {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+/// Runs `render` with a cube and options, and returns its result.
+ProgramResult render(const TemporaryFolder& folder, const Arguments& options, const std::string& output = "out.svg") {
+    folder.write("cube.obj", kCubeObj);
+    Arguments all = {"render", "cube.obj", "-o", output};
+    all.insert(all.end(), options.begin(), options.end());
+    return run_burin(folder.path(), all);
+}
+
+std::string drawn(const TemporaryFolder& folder, const Arguments& options, const std::string& output = "out.svg") {
+    const ProgramResult result = render(folder, options, output);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return read_file(folder.file(output));
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+int polylines(const std::string& dxf) {
+    int count = 0;
+    for (std::size_t at = 0; (at = dxf.find("0\nPOLYLINE\n", at)) != std::string::npos; ++at) ++count;
+    return count;
+}
+
+/// The least and the greatest coordinates of a DXF file's vertices.
+struct Bounds {
+    double x0 = 1e9, y0 = 1e9, x1 = -1e9, y1 = -1e9;
+    explicit Bounds(const std::string& dxf) {
+        std::istringstream in(dxf);
+        std::string code, value, entity;
+        while (std::getline(in, code) && std::getline(in, value)) {
+            if (code == "0") entity = value;
+            if (entity != "VERTEX" || (code != "10" && code != "20")) continue;
+            double& low = code == "10" ? x0 : y0;
+            double& high = code == "10" ? x1 : y1;
+            low = std::min(low, std::stod(value));
+            high = std::max(high, std::stod(value));
+        }
+    }
+};
+
+const Arguments kFrontView = {"--set", "camera.projection=orthographic", "--set", "camera.direction=[0,0,1]"};
+Arguments front_view(Arguments more) {
+    more.insert(more.end(), kFrontView.begin(), kFrontView.end());
+    return more;
+}
+
+TEST(Paper, SaysSizeInPixelsAndMillimetres) {
+    const TemporaryFolder folder;
+    EXPECT_TRUE(has(drawn(folder, {"--paper", "A4", "-r", "500"}),
+                    "width=\"210mm\" height=\"297mm\" viewBox=\"0 0 353.5354 500\""));
+    EXPECT_TRUE(has(drawn(folder, {"--paper", "A5-landscape", "-r", "100x420"}),
+                    "width=\"210mm\" height=\"148mm\" viewBox=\"0 0 420 296\""));
+    EXPECT_TRUE(has(drawn(folder, {"--set", "picture.paper=letter"}), "width=\"215.9mm\" height=\"279.4mm\""));
+    EXPECT_TRUE(
+        has(drawn(folder, {"--paper", "A4", "-r", "500"}, "out.pdf"), "/MediaBox [0 0 595.275590551 841.88976378]"));
+    // Lengths in mm follow: 0.5 mm are 1 pixel.
+    EXPECT_TRUE(
+        has(drawn(folder, {"--paper", "200x100mm", "-r", "400", "--style", "technical"}), "stroke-width=\"1\""));
+}
+
+TEST(Paper, ScaleIsExact) {
+    const TemporaryFolder folder;
+    // 2 units at 10:1 are 20 mm, in the middle of what the margins leave.
+    const Bounds b(
+        drawn(folder, front_view({"--paper", "A4", "--scale", "10:1", "--margin", "20,10,40,30"}), "out.dxf"));
+    EXPECT_NEAR(b.x1 - b.x0, 20, 0.01);
+    EXPECT_NEAR(b.y1 - b.y0, 20, 0.01);
+    EXPECT_NEAR(0.5 * (b.x0 + b.x1), 0.5 * (30 + 200), 0.005);
+    EXPECT_NEAR(0.5 * (b.y0 + b.y1), 0.5 * (40 + 277), 0.005);
+    const Bounds inch(drawn(folder, front_view({"--paper", "A4", "--scale", "1:2", "--unit", "in"}), "out.dxf"));
+    EXPECT_NEAR(inch.x1 - inch.x0, 25.4, 0.01);
+    const Bounds fitted(
+        drawn(folder, front_view({"--paper", "A4", "--margin", "10", "--set", "camera.fit=1"}), "out.dxf"));
+    EXPECT_NEAR(fitted.x0, 10, 0.05);
+    EXPECT_NEAR(fitted.x1, 200, 0.05);
+    const ProgramResult cut = render(folder, front_view({"--paper", "A4", "--scale", "200:1"}));
+    EXPECT_EQ(cut.status, 0);
+    EXPECT_EQ(cut.err, "burin: note: at 200:1 the view reaches beyond the paper; 105:1 would fit\n");
+}
+
+/// A perspective view, too, fills what is within the margins.
+TEST(Paper, MarginsOfAPerspectiveView) {
+    const TemporaryFolder folder;
+    const Bounds b(drawn(folder, {"--paper", "A4", "--margin", "150,20,10,80", "--set", "camera.fit=1"}, "out.dxf"));
+    EXPECT_GT(b.x0, 80 - 0.1);
+    EXPECT_LT(b.x1, 190 + 0.1);
+    EXPECT_GT(b.y0, 10 - 0.1);
+    EXPECT_LT(b.y1, 147 + 0.1);
+    EXPECT_GT(std::max((b.x1 - b.x0) / 110, (b.y1 - b.y0) / 137), 0.99);
+}
+
+TEST(Paper, WrongUse) {
+    const TemporaryFolder folder;
+    const std::pair<Arguments, const char*> wrong[] = {
+        {{"--paper", "A4", "--dpi", "96"}, "--dpi: cannot stand beside --paper"},
+        {{"--page", "patent", "--dpi", "96"}, "--dpi: cannot stand beside --page"},
+        {{"--set", "picture.paper=A4", "--dpi", "96"}, "--dpi: cannot stand beside paper"},
+        {{"--paper", "A9"}, "--paper: 'A9' is none of A5, A4"},
+        {{"--paper", "A4", "--scale", "1:2"}, "--scale: only an orthographic view has a scale"},
+        {{"--scale", "1:0"}, "--scale: must be a scale like"},
+        {{"--scale", "1:2", "--ortho", "3"}, "--scale: cannot stand beside --ortho"},
+        {{"--scale", "1:2", "--fov", "30"}, "--scale: a perspective view"},
+        {{"--unit", "yd"}, "--unit: must be mm, cm"},
+        {{"--margin", "1,2"}, "--margin: must be one number or"},
+        {{"--margin", "-1"}, "--margin: must be from 0"},
+        {{"--paper", "40x40mm", "--margin", "20"},
+         "--margin: paper of 40 x 40 mm is too small for margins of 20, 20, 20, 20"},
+        {{"--page", "iso"}, "--page: must be iso128"},
+        {{"-r", "500"}, "--size: must be WIDTHxHEIGHT in pixels, got '500'"},
+        {{"--projection", "first"}, "--projection: needs --views"},
+        {{"--views", "front,side"}, "--views: unknown view 'side'; known are front, back"},
+        {{"--views", "front,front"}, "--views: front is given more than once"},
+        {{"--views", "front", "--eye", "1,2,3"}, "--views: cannot stand beside --eye"},
+        {{"--views", "front,top", "--paper", "A5", "--scale", "100:1"},
+         "--scale: at 100:1 the views need 200 x 407.4 mm"},
+    };
+    for (const auto& [options, message] : wrong) {
+        const ProgramResult result = render(folder, options);
+        EXPECT_EQ(result.status, 2) << message;
+        EXPECT_TRUE(has(result.err, message)) << result.err;
+        EXPECT_TRUE(is_one_line(result.err)) << result.err;
+    }
+}
+
+/// What is wrong in a scene is told with its name.
+TEST(Paper, WrongScenes) {
+    const TemporaryFolder folder;
+    const std::string box = "[[object]]\nshape='box'\n[picture]\n";
+    const std::pair<const char*, const char*> wrong[] = {
+        {"paper='40x40mm'\nmargin=20\n", "a.toml: [picture] margin: paper of 40 x 40 mm is too small"},
+        {"scale='1:2'\n", "a.toml: [picture] scale: only an orthographic view has a scale"},
+        {"paper='A4'\ndpi=96\n", "a.toml:5:5: [picture] dpi: cannot stand beside paper"},
+    };
+    for (const auto& [keys, message] : wrong) {
+        folder.write("a.toml", box + keys);
+        const ProgramResult result = run_burin(folder.path(), {"render", "a.toml", "-o", "a.svg"});
+        EXPECT_EQ(result.status, 1);
+        EXPECT_TRUE(result.err.starts_with(message)) << result.err;
+    }
+}
+
+TEST(Pages, Patent) {
+    const TemporaryFolder folder;
+    const std::string pdf = drawn(folder, {"--page", "patent"}, "out.pdf");
+    EXPECT_TRUE(pdf.starts_with("%PDF-1.4"));
+    EXPECT_TRUE(has(pdf, "/MediaBox [0 0 595.275590551 841.88976378]"));
+    EXPECT_FALSE(has(pdf, "/OCG"));
+    const Bounds b(drawn(folder, {"--page", "patent"}, "out.dxf"));
+    EXPECT_GT(b.x0, 25);
+    EXPECT_LT(b.x1, 195);
+    EXPECT_GT(b.y0, 10);
+    EXPECT_LT(b.y1, 272);
+    EXPECT_TRUE(has(drawn(folder, {"--page", "patent", "--paper", "letter"}), "width=\"215.9mm\""));
+}
+
+TEST(Pages, Iso128) {
+    const TemporaryFolder folder;
+    const auto width_of = [&](const Arguments& options) {
+        const std::string svg = drawn(folder, options);
+        std::set<double> widths;
+        for (std::size_t at = 0; (at = svg.find(" stroke-width=\"", at)) != std::string::npos; ++at)
+            widths.insert(std::stod(svg.substr(at + 15)));
+        return *widths.rbegin();
+    };
+    // A pixel is 0.1 mm.
+    EXPECT_NEAR(width_of({"--page", "iso128", "-r", "2970"}), 5, 1e-3);
+    EXPECT_NEAR(width_of({"--page", "iso128", "--paper", "A1", "-r", "8410"}), 7, 1e-3);
+    EXPECT_NEAR(width_of({"--page", "iso128", "--paper", "A1", "-r", "8410", "-w", "9"}), 9, 1e-3);
+}
+
+TEST(Pages, Machines) {
+    const TemporaryFolder folder;
+    const std::string plot = drawn(folder, {"--page", "plotter", "--stats", "stats.json", "-r", "1000"});
+    EXPECT_FALSE(has(plot, "dasharray"));
+    EXPECT_FALSE(has(plot, "<rect"));
+    const nlohmann::json stats = nlohmann::json::parse(read_file(folder.file("stats.json")));
+    EXPECT_LT(stats["pen_travel_mm"].get<double>(), stats["pen_travel_unsorted_mm"].get<double>());
+    EXPECT_TRUE(has(drawn(folder, {"--page", "plotter", "--background", "#ff0000"}), "<rect"));
+    const int separate = polylines(drawn(folder, {"--page", "plotter"}, "out.dxf"));
+    const int merged = polylines(drawn(folder, {"--page", "plotter", "--merge"}, "out.dxf"));
+    EXPECT_LE(merged, separate);
+    const std::string cut = drawn(folder, {"--page", "laser", "-r", "297"});
+    EXPECT_TRUE(has(cut, "stroke-width=\"0.01\"")) << cut;
+}
+
+TEST(Views, OnOneSheet) {
+    const TemporaryFolder folder;
+    const Arguments views = {"--views", "front,top,right,iso", "--paper", "A4", "-r", "600"};
+    const std::string svg = drawn(folder, views);
+    for (const char* const view : {"front", "top", "right", "iso"}) {
+        EXPECT_TRUE(has(svg, "id=\"visible-" + std::string(view) + "-s0-silhouette\"")) << view;
+    }
+    EXPECT_FALSE(has(svg, "layer-visible-2"));
+    Arguments third = views;
+    third.insert(third.end(), {"--projection", "third"});
+    EXPECT_NE(svg, drawn(folder, third));
+    // The same bytes for any threads, in all formats.
+    for (const char* const name : {"out.svg", "out.pdf", "out.dxf", "out.png"}) {
+        Arguments one = views, three = views;
+        one.insert(one.end(), {"-j", "1"});
+        three.insert(three.end(), {"-j", "3"});
+        EXPECT_EQ(drawn(folder, one, name), drawn(folder, three, name)) << name;
+    }
+}
+
+/// Pixels and paths are at the same places on paper.
+TEST(Paper, PixelsAreWherePathsAre) {
+    const TemporaryFolder folder;
+    // In millimetres: half a line wider than paths.
+    for (const Arguments& options :
+         {Arguments{"--paper", "A5", "-r", "210", "--margin", "60,10,5,70"},
+          Arguments{"--paper", "A5-landscape", "-r", "210", "--views", "front,top,iso", "--margin", "5,80,30,7"}}) {
+        const Bounds paths(drawn(folder, options, "out.dxf"));
+        Arguments with_lines = options;
+        with_lines.insert(with_lines.end(), {"--layers", "lines"});
+        drawn(folder, with_lines, "out.exr");
+        const Image image = read_exr(folder.file("out.exr"));
+        Bounds pixels("");
+        for (int y = 0; y < image.height(); ++y) {
+            for (int x = 0; x < image.width(); ++x) {
+                if (image.value(*image.find("lines.A"), x, y) < 0.3) continue;
+                pixels.x0 = std::min(pixels.x0, x + 0.5);
+                pixels.x1 = std::max(pixels.x1, x + 0.5);
+                pixels.y0 = std::min(pixels.y0, image.height() - y - 0.5);
+                pixels.y1 = std::max(pixels.y1, image.height() - y - 0.5);
+            }
+        }
+        EXPECT_NEAR(pixels.x0, paths.x0, 1);
+        EXPECT_NEAR(pixels.x1, paths.x1, 1);
+        EXPECT_NEAR(pixels.y0, paths.y0, 1);
+        EXPECT_NEAR(pixels.y1, paths.y1, 1);
+    }
+}
+
+/// Files of lines know their paper.
+TEST(Paper, IsKeptWithLines) {
+    const TemporaryFolder folder;
+    const std::string svg = drawn(folder, {"--paper", "A4", "-r", "500", "--style", "technical"});
+    folder.write("cube.obj", kCubeObj);
+    ASSERT_EQ(run_burin(folder.path(), {"render", "cube.obj", "-o", "a.png", "--paper", "A4", "-r", "500", "--style",
+                                        "technical", "--save-lines", "a.lines"})
+                  .status,
+              0);
+    ASSERT_EQ(run_burin(folder.path(), {"restyle", "a.lines", "--style", "technical", "-o", "b.svg"}).status, 0);
+    const std::string again = read_file(folder.file("b.svg"));
+    EXPECT_EQ(svg.substr(0, svg.find("stroke-width")), again.substr(0, again.find("stroke-width")));
+}
+
+}  // namespace
+}  // namespace burin::test
