@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace burin {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 /// Chords of round ends and joins are no farther than this from the circle.
 constexpr double kRoundPx = 1.0 / 64;
 
@@ -37,7 +37,7 @@ void add_side(std::span<const InkPoint> points, std::vector<glm::dvec2>& out) {
         const double angle = std::atan2(way.y, way.x) - std::acos(std::clamp((r0 - r1) / length, -1.0, 1.0));
         const glm::dvec2 normal(std::cos(angle), std::sin(angle));
         if (!is_first) {
-            double turn = std::remainder(angle - angle_before, 2 * kPi);
+            double turn = std::remainder(angle - angle_before, 2 * std::numbers::pi);
             // On the inner side of a turn the outline passes over the point itself, so that it has no gap.
             if (turn < 0) {
                 if (turn < -0.1) out.push_back(points[i].place);
@@ -67,7 +67,7 @@ void add_outline(std::span<const InkPoint> stroke, bool has_round_caps, bool is_
         const double radius = 0.5 * static_cast<double>(widest->width_px);
         if (!(radius > 0)) return;
         out.push_back(widest->place + glm::dvec2(radius, 0));
-        add_arc(widest->place, radius, 0, 2 * kPi, out);
+        add_arc(widest->place, radius, 0, 2 * std::numbers::pi, out);
         out.push_back(out[begin]);
         return;
     }
@@ -77,8 +77,8 @@ void add_outline(std::span<const InkPoint> stroke, bool has_round_caps, bool is_
         if (!has_round_caps || is_closed || !(radius > 0)) return;
         const glm::dvec2 a = from - end.place, b = to - end.place;
         const double first = std::atan2(a.y, a.x);
-        double turn = std::remainder(std::atan2(b.y, b.x) - first, 2 * kPi);
-        if (turn < 0) turn += 2 * kPi;
+        double turn = std::remainder(std::atan2(b.y, b.x) - first, 2 * std::numbers::pi);
+        if (turn < 0) turn += 2 * std::numbers::pi;
         add_arc(end.place, radius, first, first + turn, out);
     };
     out.insert(out.end(), forth.begin(), forth.end());
