@@ -73,7 +73,6 @@ std::string vector_text(const void* given, OutputFormat format, const char* styl
     const PictureSettings& picture = drawing.scene.picture;
     paths.paper = picture.background;
     if (!paths.paper && !picture.transparent) paths.paper = glm::vec3(1.0f);
-    std::vector<std::string> notes;
     return vector_file_of(paths, format, {}, notes);
 }
 

@@ -129,8 +129,7 @@ void add_paper_options(CLI::App& app, Texts& t) {
     app.add_option("--unit", t.page.unit, "unit of the world for --scale: mm (default; m for glTF), cm, m, in or ft");
     app.add_option("--views", t.page.views,
                    "views on one sheet, comma separated: front back top bottom left right iso");
-    app.add_option("--projection", t.page.projection,
-                   "where these stand: first angle (default), as in Europe, or third, as in America");
+    app.add_option("--projection", t.page.projection, "how these stand: first angle (default) or third");
     app.add_option("--page", t.page.page, "paper, look and kind of file in one: iso128, patent, plotter or laser");
 }
 
@@ -174,6 +173,7 @@ void add_restyle_options(CLI::App& app, Texts& t) {
         ->allow_extra_args(false);
     app.add_option("--layers", t.layers, "layers of an EXR: beauty lines coverage surface lines_hidden");
     app.add_option("--crop", t.crop, "draw only these pixels, X0,Y0,X1,Y1, half open");
+    app.add_option("--page", t.page.page, "kind of vector file: patent, plotter or laser; the paper is that of INPUT");
     add_thread_options(app, t);
 }
 

@@ -97,6 +97,31 @@ TEST(Paper, ScaleIsExact) {
     EXPECT_EQ(cut.err, "burin: note: at 200:1 the view reaches beyond the paper; 105:1 would fit\n");
 }
 
+/// Models are in mm, glTF files in metres, and --unit knows better.
+TEST(Paper, UnitsOfModels) {
+    const TemporaryFolder folder;
+    folder.write("a.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}], "accessors": [{"bufferView": 0, "componentType": 5126,
+        "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}]})");
+    folder.write("a.toml", "[[object]]\nfile='a.gltf'\n");
+    folder.write("b.toml", "[[object]]\nfile='a.gltf'\n[[object]]\nshape='box'\nsize=[0.1,0.1,0.1]\n");
+    const auto width = [&](const std::string& input, const Arguments& options) {
+        Arguments all = front_view({"--paper", "A4", "-o", "a.dxf"});
+        all.insert(all.begin(), {"render", input});
+        all.insert(all.end(), options.begin(), options.end());
+        const ProgramResult result = run_burin(folder.path(), all);
+        EXPECT_EQ(result.status, 0) << result.err;
+        const Bounds b(read_file(folder.file("a.dxf")));
+        return b.x1 - b.x0;
+    };
+    EXPECT_NEAR(width("a.gltf", {"--scale", "1:10"}), 100, 0.1);
+    EXPECT_NEAR(width("a.toml", {"--scale", "1:10"}), 100, 0.1);
+    EXPECT_NEAR(width("a.gltf", {"--scale", "1:10", "--unit", "cm"}), 1, 0.1);
+    EXPECT_NEAR(width("b.toml", {"--scale", "100:1"}), 105, 0.1);
+}
+
 /// A perspective view, too, fills what is within the margins.
 TEST(Paper, MarginsOfAPerspectiveView) {
     const TemporaryFolder folder;
@@ -200,6 +225,23 @@ TEST(Pages, Machines) {
     EXPECT_LE(merged, separate);
     const std::string cut = drawn(folder, {"--page", "laser", "-r", "297"});
     EXPECT_TRUE(has(cut, "stroke-width=\"0.01\"")) << cut;
+}
+
+/// Lines that were kept are written for machines, too.
+TEST(Pages, RestyleWritesForMachines) {
+    const TemporaryFolder folder;
+    folder.write("cube.obj", kCubeObj);
+    for (const char* const page : {"plotter", "laser", "patent"}) {
+        ASSERT_EQ(run_burin(folder.path(), {"render", "cube.obj", "-o", "a.svg", "--page", page, "--style", "technical",
+                                            "--find", "all", "--save-lines", "a.lines", "-q"})
+                      .err,
+                  "");
+        ASSERT_EQ(run_burin(folder.path(),
+                            {"restyle", "a.lines", "-o", "b.svg", "--page", page, "--style", "technical", "-q"})
+                      .err,
+                  "");
+        EXPECT_TRUE(read_file(folder.file("a.svg")) == read_file(folder.file("b.svg"))) << page;
+    }
 }
 
 TEST(Views, OnOneSheet) {

@@ -14,7 +14,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::smooth_outlines_test {
 namespace {
 
 using namespace test;
@@ -222,4 +222,4 @@ TEST(SmoothOutlines, OfBodiesAreNearerToTheirFineOnesThanTheMeshes) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::smooth_outlines_test
