@@ -140,7 +140,7 @@ TEST(FrontViews, NothingIsLeftToSlowDecisions) {
 std::size_t segment_count(const Scene& scene, const Camera& camera) {
     const Frame frame = make_frame(scene, camera, kSize, kSize, {0, 0, kSize, kSize});
     ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), 1);
-    VisiblePass pass(frame, screen, best_kernels(), 1, nullptr);
+    VisiblePass pass(frame, screen, nullptr, best_kernels(), 1, nullptr);
     LineDrawing drawing;
     Film film({0, 0, kSize, kSize}, {0, 0, kSize, kSize}, LayerSet{}, frame.criteria.classes);
     RenderStats stats;

@@ -6,7 +6,7 @@
 
 #include "tests/burin/shapes.h"
 
-namespace burin::test {
+namespace burin::test::arguments_test {
 namespace {
 
 const double kNaN = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
@@ -200,4 +200,4 @@ TEST(Arguments, MaterialsAreChecked) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::arguments_test

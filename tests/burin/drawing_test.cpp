@@ -10,7 +10,7 @@
 #include "tests/burin/shapes.h"
 #include "tests/support/random.h"
 
-namespace burin::test {
+namespace burin::test::drawing_test {
 namespace {
 
 const View kView{.width = 160, .height = 120};
@@ -161,4 +161,4 @@ TEST(LibraryDrawing, OfAnEmptySceneHasNoPieces) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::drawing_test

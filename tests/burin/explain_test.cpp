@@ -6,7 +6,7 @@
 #include "tests/burin/shapes.h"
 #include "tests/cli/program.h"
 
-namespace burin::test {
+namespace burin::test::explain_test {
 namespace {
 
 const View kView{.width = 160, .height = 120};
@@ -178,4 +178,4 @@ TEST(LibraryExplain, ArgumentsAreChecked) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::explain_test

@@ -12,7 +12,7 @@
 #include "tests/burin/shapes.h"
 #include "tests/cli/program.h"
 
-namespace burin::test {
+namespace burin::test::line_shader_test {
 namespace {
 
 const View kView{.width = 160, .height = 120};
@@ -379,4 +379,4 @@ TEST(LibraryLineShader, UnknownNamesAreErrorsWithAPlace) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::line_shader_test

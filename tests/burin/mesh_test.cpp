@@ -5,7 +5,7 @@
 #include "tests/burin/shapes.h"
 #include "tests/cli/program.h"
 
-namespace burin::test {
+namespace burin::test::mesh_test {
 namespace {
 
 /// The EXR that the program makes of an OBJ of these arrays.
@@ -211,4 +211,4 @@ TEST(LibraryMesh, AnEmptyMeshIsAnObjectWithoutPixels) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::mesh_test

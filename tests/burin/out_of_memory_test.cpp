@@ -8,7 +8,7 @@
 #include "tests/burin/shapes.h"
 #include "tests/support/failing_heap.h"
 
-namespace burin::test {
+namespace burin::test::out_of_memory_test {
 namespace {
 
 // Scene files and settings are left out: toml++ ends the process where its parser gets no memory.
@@ -92,4 +92,4 @@ TEST(OutOfMemory, IsToldAndChangesNothing) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::out_of_memory_test

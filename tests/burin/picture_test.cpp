@@ -7,7 +7,7 @@
 #include "tests/burin/shapes.h"
 #include "tests/cli/program.h"
 
-namespace burin::test {
+namespace burin::test::picture_test {
 namespace {
 
 std::string text_of(const std::vector<std::byte>& bytes) {
@@ -185,4 +185,4 @@ TEST(LibraryPicture, LivesOnWithoutItsScene) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::picture_test

@@ -4,7 +4,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/random.h"
 
-namespace burin::test {
+namespace burin::test::random_calls_test {
 namespace {
 
 constexpr int kScenes = kSanitized ? 10 : 100, kCallsPerScene = 1000;
@@ -27,4 +27,4 @@ TEST(RandomCalls, NeverCrashAndTellWhyTheyFail) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::random_calls_test

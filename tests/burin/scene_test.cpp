@@ -6,7 +6,7 @@
 #include "tests/burin/shapes.h"
 #include "tests/cli/program.h"
 
-namespace burin::test {
+namespace burin::test::scene_test {
 namespace {
 
 const std::string kScenes = std::string(BURIN_SOURCE_FOLDER) + "/scenes/";
@@ -260,4 +260,4 @@ TEST(LibraryScene, WithoutObjectsThereIsPaper) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::scene_test

@@ -6,7 +6,7 @@
 
 #include "tests/burin/shapes.h"
 
-namespace burin::test {
+namespace burin::test::stop_test {
 namespace {
 
 constexpr View kLarge{.width = 8192, .height = 8192};  // takes long enough to be stopped
@@ -148,4 +148,4 @@ TEST(Threads, FilesAreLoadedAtOnce) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::stop_test

@@ -7,7 +7,7 @@
 #include "tests/burin/shapes.h"
 #include "tests/cli/program.h"
 
-namespace burin::test {
+namespace burin::test::style_test {
 namespace {
 
 const std::string kScenes = std::string(BURIN_SOURCE_FOLDER) + "/scenes/";
@@ -211,4 +211,4 @@ TEST(LibraryStyle, DrawingsAreWrittenAsPaths) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::style_test

@@ -5,7 +5,7 @@
 
 #include "tests/burin/shapes.h"
 
-namespace burin::test {
+namespace burin::test::view_test {
 namespace {
 
 Scene two_cubes() {
@@ -118,4 +118,4 @@ TEST(LibraryView, HiddenLinesHaveALayerOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::view_test

@@ -13,7 +13,7 @@
 #include "tests/support/random.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin::test {
+namespace burin::test::bad_input_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -371,4 +371,4 @@ TEST(BadInput, AnImageThatNoMemoryHolds) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::bad_input_test

@@ -9,7 +9,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin::test {
+namespace burin::test::commands_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -228,4 +228,4 @@ TEST(Commands, WhatCannotBePrintedIsAFailure) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::commands_test

@@ -10,7 +10,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin::test {
+namespace burin::test::kernels_test {
 namespace {
 
 constexpr const char* kScene = R"(
@@ -68,4 +68,4 @@ TEST_F(Kernels, UnknownSetsAreRefused) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::kernels_test

@@ -8,7 +8,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin::test {
+namespace burin::test::left_out_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -74,4 +74,4 @@ TEST(LeftOut, IsRefusedWithStrictUnlessTheFileMeansIt) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::left_out_test

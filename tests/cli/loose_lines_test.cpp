@@ -9,7 +9,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin::test {
+namespace burin::test::loose_lines_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -68,4 +68,4 @@ TEST_F(LooseLinesOfFiles, NoMethodFailsWithoutPolygons) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::loose_lines_test

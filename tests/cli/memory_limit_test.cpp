@@ -7,7 +7,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin::test {
+namespace burin::test::memory_limit_test {
 namespace {
 
 /// With whatever there is, it is enough, or memory is what the message is about.
@@ -33,4 +33,4 @@ TEST(MemoryLimit, TooLittleMemoryIsToldAsSuch) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::memory_limit_test

@@ -9,7 +9,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin::test {
+namespace burin::test::notes_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -158,4 +158,4 @@ TEST(Notes, PolygonsThatWereCutAreCounted) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::notes_test

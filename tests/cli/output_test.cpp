@@ -14,7 +14,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin::test {
+namespace burin::test::output_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -179,4 +179,4 @@ TEST_F(Output, TwoRendersAtOnceDoNotDisturbEachOther) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::output_test

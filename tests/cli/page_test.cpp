@@ -13,7 +13,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin::test {
+namespace burin::test::page_test {
 namespace {
 
 using Arguments = std::vector<std::string>;
@@ -308,4 +308,4 @@ TEST(Paper, IsKeptWithLines) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::page_test

@@ -23,17 +23,17 @@ using Clock = std::chrono::steady_clock;
 
 constexpr rlim_t kMemoryLimit = rlim_t{2} << 30;
 
-struct Channel {
+struct Pipe {
     int read_end = -1, write_end = -1;
 };
 
-Channel make_pipe() {
+Pipe make_pipe() {
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
     return {ends[0], ends[1]};
 }
 
-Channel make_terminal() {
+Pipe make_terminal() {
     const int master = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
     if (master < 0 || ::grantpt(master) != 0 || ::unlockpt(master) != 0) throw std::runtime_error("no terminal");
     return {master, ::open(::ptsname(master), O_RDWR | O_NOCTTY | O_CLOEXEC)};
@@ -62,8 +62,8 @@ Program::Program(const std::string& folder, const std::vector<std::string>& argu
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
 
-    const Channel out = make_pipe();
-    const Channel err = options.stderr_is_terminal ? make_terminal() : make_pipe();
+    const Pipe out = make_pipe();
+    const Pipe err = options.stderr_is_terminal ? make_terminal() : make_pipe();
     child_ = ::fork();
     if (child_ < 0) throw std::runtime_error("no process");
     if (child_ == 0) {

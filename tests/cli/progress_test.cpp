@@ -12,7 +12,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin::test {
+namespace burin::test::progress_test {
 namespace {
 
 using Arguments = std::vector<std::string>;
@@ -115,4 +115,4 @@ TEST_P(Interrupt, LeavesNothing) {
 INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, testing::Values(SIGINT, SIGTERM));
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::progress_test

@@ -13,7 +13,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin::test {
+namespace burin::test::render_test {
 namespace {
 
 using Arguments = std::vector<std::string>;
@@ -446,4 +446,4 @@ TEST_F(Render, WhatIsSaidOnTheWay) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::render_test

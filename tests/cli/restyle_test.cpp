@@ -5,7 +5,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin::test {
+namespace burin::test::restyle_test {
 namespace {
 
 using Arguments = std::vector<std::string>;
@@ -103,4 +103,4 @@ TEST(Restyle, RefusesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::restyle_test

@@ -18,7 +18,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin::test {
+namespace burin::test::safe_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -331,4 +331,4 @@ TEST_F(SafeFiles, ManyNamesAreNotComparedEachWithEach) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::safe_files_test

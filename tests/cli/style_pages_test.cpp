@@ -12,7 +12,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin::test {
+namespace burin::test::style_pages_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -114,4 +114,4 @@ TEST(StylePages, BuiltInSheetsAreShort) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::style_pages_test

@@ -13,7 +13,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin::test {
+namespace burin::test::styles_test {
 namespace {
 
 using Arguments = std::vector<std::string>;
@@ -288,4 +288,4 @@ TEST_F(Styles, AreListedAndPrinted) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::styles_test

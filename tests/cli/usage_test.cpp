@@ -6,7 +6,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin::test {
+namespace burin::test::usage_test {
 namespace {
 
 using Arguments = std::vector<std::string>;
@@ -203,4 +203,4 @@ TEST_F(Usage, StatsMustNotDestroyFiles) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::usage_test

@@ -5,7 +5,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin::test {
+namespace burin::test::vector_test {
 namespace {
 
 std::string scene_file(const std::string& name) { return std::string(BURIN_SOURCE_FOLDER) + "/scenes/" + name; }
@@ -68,4 +68,4 @@ TEST(VectorFiles, WhatCannotBeIsRefusedOrNoted) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::vector_test

@@ -12,7 +12,7 @@
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin::test {
+namespace burin::test::views_test {
 namespace {
 
 using Arguments = std::vector<std::string>;
@@ -162,4 +162,4 @@ TEST(Views, AModelFarFromTheOrigin) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::test::views_test

@@ -11,7 +11,7 @@
 #include "scene/scene_description.h"
 #include "tests/support/drawing.h"
 
-namespace burin {
+namespace burin::drawing_test {
 namespace {
 
 using namespace test;
@@ -104,4 +104,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& of) { return std::get<0>(of.param) + "_" + std::to_string(std::get<1>(of.param)); });
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::drawing_test

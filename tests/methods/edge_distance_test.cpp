@@ -6,7 +6,7 @@
 
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::edge_distance_test {
 namespace {
 
 /// A triangle as a camera sees it: pixels in a picture of 640 x 480, and w.
@@ -232,4 +232,4 @@ TEST(EdgeDistance, AnEdgeMovedAwayIsQOnItselfAndItsHeightAtTheOppositeCorner) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::edge_distance_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/shaded_scene.h"
 
-namespace burin {
+namespace burin::explain_strokes_test {
 namespace {
 
 using namespace test;
@@ -52,7 +52,7 @@ TEST(ExplainStrokes, TellsSetStyleOwnerSharesAndValues) {
     const ShadedScene scene(kScene, kSheet, 100, 100);
     const Frame frame = scene.frame(scene.whole());
     // The box's left side is at x = 25 px: the stroke of 4 px covers 23 to 27.
-    const std::string text = explain_strokes(frame, 24, 50);
+    const std::string text = text_of(explain_strokes(frame, 24, 50));
     EXPECT_TRUE(contains(text, "1 set outline (")) << text;
     EXPECT_TRUE(contains(text, "marks: class silhouette is not in its classes")) << text;
     EXPECT_TRUE(contains(text, "elsewhere: no object fits its objects")) << text;
@@ -62,8 +62,8 @@ TEST(ExplainStrokes, TellsSetStyleOwnerSharesAndValues) {
     EXPECT_TRUE(contains(text, "covers 0.5, shows 0.5\n    width 4 px = 2 + 2*is_silhouette")) << text;
     EXPECT_TRUE(contains(text, "opacity 0.5\n    color #ff0000")) << text;
     EXPECT_TRUE(contains(text, "where is_silhouette 1")) << text;
-    EXPECT_EQ(explain_strokes(frame, 50, 50), "the style sheet draws nothing in this pixel\n");
+    EXPECT_EQ(text_of(explain_strokes(frame, 50, 50)), "the style sheet draws nothing in this pixel\n");
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::explain_strokes_test

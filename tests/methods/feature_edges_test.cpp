@@ -12,7 +12,7 @@
 #include "methods/projected_polygon.h"
 #include "tests/support/drawing.h"
 
-namespace burin {
+namespace burin::feature_edges_test {
 namespace {
 
 using namespace test;
@@ -186,4 +186,4 @@ TEST(ProjectedPolygon, SharesItsEdgesToTheBit) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::feature_edges_test

@@ -13,7 +13,7 @@
 #include "methods/gbuffer/profile.h"
 #include "methods/gbuffer/roberts.h"
 
-namespace burin {
+namespace burin::gbuffer_operators_test {
 namespace {
 
 constexpr PixelRect kRect{-8, -8, 8, 8};
@@ -229,4 +229,4 @@ TEST(Contours, OverlapIsTheAreaOfTheStrokeInTheSample) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::gbuffer_operators_test

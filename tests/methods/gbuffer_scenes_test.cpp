@@ -14,7 +14,7 @@
 #include "tests/support/drawing.h"
 #include "tests/support/minimal_scenes.h"
 
-namespace burin {
+namespace burin::gbuffer_scenes_test {
 namespace {
 
 using namespace test;
@@ -436,4 +436,4 @@ TEST(Hatching, IsDarkerWhereTheSurfaceTurnsAway) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::gbuffer_scenes_test

@@ -12,7 +12,7 @@
 #include "tests/methods/wire_checks.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::id_buffer_test {
 namespace {
 
 using namespace test;
@@ -318,4 +318,4 @@ TEST(IdBuffer, CornersBehindTheEyeAreNoTrouble) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::id_buffer_test

@@ -10,7 +10,7 @@
 #include "tests/support/oracle.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::oracle_test {
 namespace {
 
 using namespace test;
@@ -109,4 +109,4 @@ TEST(Oracle, NoticesAMissingClass) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::oracle_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/drawing.h"
 
-namespace burin {
+namespace burin::patel_strokes_test {
 namespace {
 
 using namespace test;
@@ -116,4 +116,4 @@ TEST(PatelStroke, SurfaceCoverageIsAntiAliased) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::patel_strokes_test

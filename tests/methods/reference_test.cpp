@@ -14,7 +14,7 @@
 #include "tests/support/oracle.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::reference_test {
 namespace {
 
 using namespace test;
@@ -370,4 +370,4 @@ TEST(Reference, CoincidentSheetsAreOne) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::reference_test

@@ -8,7 +8,7 @@
 #include "methods/wire/wire_profile.h"
 #include "tests/methods/wire_checks.h"
 
-namespace burin {
+namespace burin::single_pass_test {
 namespace {
 
 using namespace test;
@@ -285,4 +285,4 @@ TEST(SinglePass, LayersFitTogether) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::single_pass_test

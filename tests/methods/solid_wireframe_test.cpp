@@ -5,7 +5,7 @@
 #include "methods/wire/wire_profile.h"
 #include "tests/methods/wire_checks.h"
 
-namespace burin {
+namespace burin::solid_wireframe_test {
 namespace {
 
 using namespace test;
@@ -116,4 +116,4 @@ TEST(SolidWireframe, DiagonalsAreHiddenOrDotted) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::solid_wireframe_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/shaded_scene.h"
 
-namespace burin {
+namespace burin::styled_invariance_test {
 namespace {
 
 using namespace test;
@@ -179,4 +179,4 @@ TEST(StyledAnimation, LooksPopNoMoreThanOneWidthDoes) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::styled_invariance_test

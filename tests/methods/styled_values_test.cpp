@@ -8,7 +8,7 @@
 #include "mesh/shapes.h"
 #include "tests/support/shaded_scene.h"
 
-namespace burin {
+namespace burin::styled_values_test {
 namespace {
 
 using namespace test;
@@ -479,4 +479,4 @@ priority = )") + (is_thin_above ? "1" : "-1") +
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::styled_values_test

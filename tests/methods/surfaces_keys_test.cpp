@@ -5,7 +5,7 @@
 #include "shading/surface/surface_recipe.h"
 #include "tests/scene/scene_text.h"
 
-namespace burin {
+namespace burin::surfaces_keys_test {
 namespace {
 
 using namespace test;
@@ -105,4 +105,4 @@ TEST(SurfaceKeys, FaultsAreNamedWithTheirPlace) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::surfaces_keys_test

@@ -10,7 +10,7 @@
 #include "tests/scene/scene_text.h"
 #include "tests/support/drawing.h"
 
-namespace burin {
+namespace burin::surfaces_test {
 namespace {
 
 using namespace test;
@@ -455,4 +455,4 @@ TEST(Shadows, AreDarkerInEveryShading) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::surfaces_test

@@ -7,7 +7,7 @@
 #include "methods/wire/wire_profile.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::wire_profile_test {
 namespace {
 
 using Kind = WireProfileKind;
@@ -160,4 +160,4 @@ TEST(WireProfile, StepHasTwoLevels) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::wire_profile_test

@@ -6,7 +6,7 @@
 
 #include "tests/methods/wire_checks.h"
 
-namespace burin {
+namespace burin::wire_stroke_test {
 namespace {
 
 using namespace test;
@@ -164,4 +164,4 @@ TEST(WireStroke, DotsAreDiscs) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::wire_stroke_test

@@ -3,7 +3,7 @@
 #include "mesh/shapes.h"
 #include "tests/methods/zbuffer_support.h"
 
-namespace burin {
+namespace burin::zbuffer_artefacts_test {
 namespace {
 
 using namespace test;
@@ -292,4 +292,4 @@ TEST(Highlight, SelectsByClassAndByObject) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::zbuffer_artefacts_test

@@ -5,7 +5,7 @@
 #include "tests/methods/zbuffer_support.h"
 #include "tests/support/oracle.h"
 
-namespace burin {
+namespace burin::zbuffer_invariance_test {
 namespace {
 
 using namespace test;
@@ -128,4 +128,4 @@ TEST(ZBufferMethods, FarEyesCloseEyesAndEyesWithinTheModel) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::zbuffer_invariance_test

@@ -4,7 +4,7 @@
 
 #include "tests/methods/zbuffer_support.h"
 
-namespace burin {
+namespace burin::zbuffer_laws_test {
 namespace {
 
 using namespace test;
@@ -158,4 +158,4 @@ TEST(Leak, OfSlopeOffsetsIsWorstAtTheLimb) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::zbuffer_laws_test

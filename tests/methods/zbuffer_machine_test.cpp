@@ -7,7 +7,7 @@
 #include "tests/methods/zbuffer_support.h"
 #include "tests/support/random.h"
 
-namespace burin {
+namespace burin::zbuffer_machine_test {
 namespace {
 
 using namespace test;
@@ -250,4 +250,4 @@ TEST(DepthRange, IsAffineOnTheScreenAndItsOwnInverse) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::zbuffer_machine_test

@@ -10,7 +10,7 @@
 #include "scene/sheet_toml.h"
 #include "shading/sheet/compiled_sheet.h"
 
-namespace burin {
+namespace burin::sheet_toml_test {
 namespace {
 
 SheetContext context() {
@@ -225,4 +225,4 @@ TEST(Sheets, ThatTheProgramBringsAlongCompile) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::sheet_toml_test
