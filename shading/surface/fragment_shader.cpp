@@ -29,11 +29,14 @@ FragmentShader::FragmentShader(const ShadedSurfaces& surfaces)
     : surfaces_(surfaces), look_(surfaces.look()), projection_(surfaces.surfaces().projection) {
     const bool is_on_object = look_.shading == SurfaceShading::hatch && look_.hatch_space == HatchSpace::object;
     const bool reads_light = look_.shading == SurfaceShading::toon || look_.shading == SurfaceShading::gooch;
-    SurfaceVariables of_pixel;
+    SurfaceVariables of_pixel, of_file;
     for (const S v : {S::x, S::y, S::C, S::object, S::material}) of_pixel.set(number_of(v));
-    needs_places_ = look_.needs_lit || reads_light || is_on_object || (look_.variables & ~of_pixel).any();
+    for (const S v : {S::u, S::v, S::Cv, S::attribute}) of_file.set(number_of(v));
+    needs_places_ = look_.needs_lit || reads_light || is_on_object || (look_.variables & ~(of_pixel | of_file)).any();
+    needs_shares_ = !look_.layers.empty() || look_.variables[number_of(S::kr)];
     needs_changes_ = look_.shading == SurfaceShading::toon || is_on_object;
     columns_.resize(look_.inputs.size() * kBlock);
+    column_list_.resize(look_.inputs.size());
     std::size_t results = 0;
     for (const ExpressionOutput& output : look_.program.outputs()) results += output.components;
     values_.resize(results * kBlock);
@@ -78,6 +81,9 @@ void FragmentShader::shade_block(std::span<const SurfaceFragment> fragments, glm
         triangle_at_[i] = is_known ? triangle_at_[i - 1] : triangle_number(fragments[i].surface);
         if (needs_places_) places_[i] = triangle_of(i).at(fragments[i].place);
         if (needs_changes_) changes_[i] = triangle_of(i).changes_at(fragments[i].place, places_[i]);
+    }
+    if (needs_shares_) {
+        for (std::size_t i = 0; i < fragments.size(); ++i) shares_[i] = triangle_of(i).shares_at(fragments[i].place);
     }
     if (look_.needs_lit) {
         for (std::size_t i = 0; i < fragments.size(); ++i) lit_[i] = lit_share(i, fragments[i].place);
@@ -158,25 +164,44 @@ void FragmentShader::fill_column(const SurfaceInput& input, std::span<const Surf
             return each([&](std::size_t i) { return triangle_of(i).object_id(); });
         case S::material:
             return each([&](std::size_t i) { return triangle_of(i).material_id(); });
+        case S::kr:
+            return each([&, eye = light_at_eye(projection_)](std::size_t i) {
+                const SurfaceId id = triangle_of(i).id();
+                return radial_curvature(surfaces_.curvature(id.instance), id.triangle, shares_[i],
+                                        glm::dmat3(surfaces_.to_object(id.instance)), places_[i].normal,
+                                        eye.towards(places_[i].position));
+            });
+        case S::u:
+        case S::v:
+            return each([&](std::size_t i) { return file_value(i, input.layer, input.variable == S::u ? 0 : 1); });
+        case S::Cv:
+        case S::attribute:
+            return each([&](std::size_t i) { return file_value(i, input.layer, input.component); });
     }
 }
 
 void FragmentShader::evaluate(std::span<const SurfaceFragment> fragments) {
-    std::array<const float*, 3 * kSurfaceVariableCount> columns{};
     for (std::size_t k = 0; k < look_.inputs.size(); ++k) {
-        float* const to = &columns_[k * kBlock];
-        fill_column(look_.inputs[k], fragments, to);
-        columns[k] = to;
+        fill_column(look_.inputs[k], fragments, &columns_[k * kBlock]);
+        column_list_[k] = &columns_[k * kBlock];
     }
     std::array<float*, 9> values{};
     for (std::size_t k = 0; k * kBlock < values_.size(); ++k) values[k] = &values_[k * kBlock];
     std::array<NotNumbers, 3> found{};
     const std::size_t results = look_.program.outputs().size();
-    look_.program.evaluate(std::span(columns).first(look_.inputs.size()), fragments.size(), values,
-                           std::span(found).first(results));
+    look_.program.evaluate(column_list_, fragments.size(), values, std::span(found).first(results));
     std::uint64_t count = 0;
     for (const NotNumbers& of_result : found) count += of_result.count;
     if (count != 0) surfaces_.count_not_numbers(count);
+}
+
+float FragmentShader::file_value(std::size_t i, std::size_t layer, std::size_t component) const {
+    const SurfaceId id = triangle_of(i).id();
+    const AttributeLayer* const values = surfaces_.layer(id.instance, layer);
+    if (values == nullptr) return 0;
+    std::array<float, 3> row{};
+    attribute_at(*values, id.triangle, shares_[i], row.data());
+    return row[component];
 }
 
 float FragmentShader::lit_share(std::size_t i, glm::dvec2 pixel) const {

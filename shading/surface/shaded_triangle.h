@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 
@@ -37,6 +38,11 @@ class ShadedTriangle {
         if (!is_smooth_) return {position, normals_[0]};
         const glm::dvec3 normal = mean_of(normals_, weights);
         return {position, normal * (1 / std::max(glm::length(normal), 1e-300))};
+    }
+    /// The shares of the corners in a place, with the sum 1.
+    std::array<double, 3> shares_at(glm::dvec2 pixel) const {
+        const auto [weights, scale] = weights_at(pixel);
+        return {weights[0] * scale, weights[1] * scale, weights[2] * scale};
     }
     /// The place is that at the pixel.
     SurfaceChanges changes_at(glm::dvec2 pixel, const SurfacePlace& place) const;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "mesh/vertex_attributes.h"
 #include "shading/sheet/style_sheet.h"
 #include "shading/surface_shader.h"
 
@@ -46,6 +47,9 @@ struct SurfaceRecipe {
     glm::dvec3 axis{0.0, 1.0, 0.0};  ///< in the object, across the planes of its first level
     int levels = 3;
 };
+
+/// Adds what the texts of a recipe name of the values that files give at vertices.
+void add_attributes_named_in(const SurfaceRecipe& recipe, AttributeWish& wish);
 
 /// The steps of a drawing with two tones and a highlight.
 Ramp default_tones();
