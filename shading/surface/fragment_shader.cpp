@@ -48,7 +48,9 @@ FragmentShader::FragmentShader(const ShadedSurfaces& surfaces)
     for (int level = 0; level < look_.hatch_levels; ++level) {
         const double turn = glm::radians(kLevelTurnsDeg[level]);
         const double angle = glm::radians(look_.hatch_angle_deg) + turn;
-        hatch_directions_.emplace_back(std::sin(angle), std::cos(angle));  // across the lines; y runs down
+        const bool is_uv = look_.hatch_space == HatchSpace::uv;
+        hatch_directions_.emplace_back(is_uv ? -std::sin(angle) : std::sin(angle),
+                                       std::cos(angle));  // across the lines; y runs down, v up
         hatch_axes_.push_back(level % 2 == 0 ? unit(axis * std::cos(turn) + across * std::sin(turn))
                                              : unit(axis * std::cos(turn) + other * std::sin(turn)));
         const glm::dvec3 aside(0.36, 0.48, 0.8);
@@ -281,6 +283,28 @@ double FragmentShader::covered_on_object(std::size_t i, const glm::dvec3& axis, 
     return covered_by_adaptive_lines(place, std::max(glm::length(change), least), look_.hatch_spacing_px, width);
 }
 
+double FragmentShader::covered_on_texture(std::size_t i, const glm::dvec2& across, double width,
+                                          glm::dvec2 pixel) const {
+    const ShadedTriangle& triangle = triangle_of(i);
+    const SurfaceId id = triangle.id();
+    const AttributeLayer* const uv = surfaces_.layer(id.instance, look_.hatch_layer);
+    const std::uint32_t* const rows = uv != nullptr ? &uv->rows[3 * std::size_t{id.triangle}] : nullptr;
+    if (rows == nullptr || std::find(rows, rows + 3, AttributeLayer::kNoRow) != rows + 3) return width;
+    const auto changes = triangle.share_changes_at(pixel);
+    double place = 0;
+    glm::dvec2 change(0.0);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::span<const float> row = uv->row(rows[k]);
+        const double at_corner = across.x * static_cast<double>(row[0]) + across.y * static_cast<double>(row[1]);
+        place += shares_[i][k] * at_corner;
+        change += glm::dvec2(changes[0][k], changes[1][k]) * at_corner;
+    }
+    const double per_px = glm::length(change);
+    // Where the texture stands still, lines have no place: the tone is even.
+    if (!(per_px > 1e-100 && per_px < 1e100)) return width;
+    return covered_by_adaptive_lines(place, per_px, look_.hatch_spacing_px, width);
+}
+
 glm::dvec3 FragmentShader::axis_in_view(std::size_t i, const glm::dvec3& axis) const {
     const glm::dmat4& to_object = surfaces_.to_object(triangle_of(i).id().instance);
     return {glm::dot(axis, glm::dvec3(to_object[0])), glm::dot(axis, glm::dvec3(to_object[1])),
@@ -292,6 +316,7 @@ double FragmentShader::free_of_level(std::size_t i, std::size_t level, double wi
         const double place = glm::dot(pixel, hatch_directions_[level]) / look_.hatch_spacing_px;
         return 1 - covered_by_lines(place, 1 / look_.hatch_spacing_px, width);
     }
+    if (look_.hatch_space == HatchSpace::uv) return 1 - covered_on_texture(i, hatch_directions_[level], width, pixel);
     // Where the planes of the level hardly cut the surface, others take over.
     const glm::dvec3& axis = hatch_axes_[level];
     const double cosine = std::min(std::abs(glm::dot(unit(axis_in_view(i, axis)), places_[i].normal)), 1.0);

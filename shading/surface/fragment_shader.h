@@ -52,6 +52,8 @@ class FragmentShader {
     double free_of_level(std::size_t i, std::size_t level, double width, glm::dvec2 pixel) const;
     /// What planes across an axis of the object cover.
     double covered_on_object(std::size_t i, const glm::dvec3& axis, double width) const;
+    /// What lines across a direction of the texture cover.
+    double covered_on_texture(std::size_t i, const glm::dvec2& across, double width, glm::dvec2 pixel) const;
     glm::dvec3 axis_in_view(std::size_t i, const glm::dvec3& axis) const;
     const ShadedTriangle& triangle_of(std::size_t i) const { return triangles_[triangle_at_[i]]; }
 
@@ -59,7 +61,7 @@ class FragmentShader {
     const SurfaceLook& look_;
     const Projection& projection_;
     bool needs_places_, needs_changes_, needs_shares_;
-    std::vector<glm::dvec2> hatch_directions_;  // on the screen, per level
+    std::vector<glm::dvec2> hatch_directions_;  // on the screen, or in texture coordinates, per level
     std::vector<glm::dvec3> hatch_axes_;        // in the object, per level
     std::vector<glm::dvec3> other_axes_;        // across these, for surfaces that lie in their planes
 

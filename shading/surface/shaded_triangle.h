@@ -44,6 +44,8 @@ class ShadedTriangle {
         const auto [weights, scale] = weights_at(pixel);
         return {weights[0] * scale, weights[1] * scale, weights[2] * scale};
     }
+    /// How the shares change by a pixel to the right, and by one down.
+    std::array<std::array<double, 3>, 2> share_changes_at(glm::dvec2 pixel) const;
     /// The place is that at the pixel.
     SurfaceChanges changes_at(glm::dvec2 pixel, const SurfacePlace& place) const;
     /// Where a ray to a light begins that is to miss the neighbours of the triangle on a smooth surface: on that,

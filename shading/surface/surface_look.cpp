@@ -181,6 +181,8 @@ SurfaceLook::SurfaceLook(SurfaceShading of, const SurfaceRecipe& recipe, const S
         if (const auto layer = layer_of(made.variable, input.name)) made.layer = layer_number(*layer);
         variables.set(number_of(made.variable));
     }
+    if (shading == SurfaceShading::hatch && hatch_space == HatchSpace::uv)
+        hatch_layer = layer_number({AttributeKind::uv, {}});
     needs_lit = has_shadows || variables[number_of(SurfaceVariable::lit)];
 }
 
@@ -194,6 +196,7 @@ std::size_t SurfaceLook::layer_number(const SurfaceLayer& layer) {
 void add_attributes_named_in(const SurfaceRecipe& recipe, AttributeWish& wish) {
     for (const StyleValue* const value : {&recipe.color, &recipe.tone, &recipe.ink, &recipe.ground})
         add_attributes_named_in(*value, wish);
+    wish.uv = wish.uv || recipe.space == HatchSpace::uv;
     if (recipe.detail) add_attributes_named_in(recipe.detail->over, wish);
 }
 

@@ -97,7 +97,8 @@ struct SurfaceLook {
     ExpressionProgram program;
     std::vector<SurfaceInput> inputs;  ///< of the program
     SurfaceVariables variables;        ///< that it reads
-    std::vector<SurfaceLayer> layers;  ///< the values of files that it reads
+    std::vector<SurfaceLayer> layers;  ///< the values of files that it reads, or the hatching
+    std::size_t hatch_layer = 0;       ///< of a hatching in texture coordinates: their layer
     bool needs_lit = false;            ///< whether shadows are to be known
 
   private:

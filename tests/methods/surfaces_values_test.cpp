@@ -114,9 +114,8 @@ TEST(SurfaceFileValues, WhatIsMissingIsZeroAndNoted) {
     const std::string ball = "[[object]]\nshape = \"sphere\"\nradius = 0.4\ntranslate = [0, 0, 1]\n";
     const Scene uv = scene_with_file("a.obj", kSquareObj, "color = \"=rgb(u, 0.5, Cv.b)\"", ball);
     EXPECT_EQ(uv.notes,
-              (std::vector<std::string>{
-                  "[surfaces] reads texture coordinates (u, v), which 'sphere' has not: 0 there",
-                  "[surfaces] reads colours of vertices (Cv), which 'sphere' has not: 0 there"}));
+              (std::vector<std::string>{"[surfaces] reads texture coordinates (u, v), which 'sphere' has not: 0 there",
+                                        "[surfaces] reads colours of vertices (Cv), which 'sphere' has not: 0 there"}));
     const Drawing d = seen(uv, perspective_camera({0, 0, 9}, {0, 0, 0}));
     EXPECT_EQ(d.at("R", 60, 60), 0);
     EXPECT_NEAR(d.at("G", 60, 60), 0.5, 1e-6);
@@ -133,8 +132,8 @@ TEST(SurfaceFileValues, WhatIsMissingIsZeroAndNoted) {
 TEST(SurfaceFileValues, OnlyWhatIsReadIsLoaded) {
     const auto layers = [](const std::string& surfaces) {
         std::string names;
-        for (const AttributeLayer& layer : scene_with_file("a.ply", kSquarePly, surfaces).meshes[0].attributes)
-            names += layer.name + ";";
+        const Scene scene = scene_with_file("a.ply", kSquarePly, surfaces);
+        for (const AttributeLayer& layer : scene.meshes[0].attributes) names += layer.name + ";";
         return names;
     };
     EXPECT_EQ(layers("color = \"=C\""), "");
@@ -153,12 +152,55 @@ TEST(SurfaceFileValues, AnExpressionMayReadManyNumbers) {
         row += " 0.25";
         sum += " + attr(\"n" + std::to_string(i) + "\")";
     }
-    std::string ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" +
-                      header + "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" + header +
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
     for (const char* const place : {"0 0 0", "240 0 0", "0 240 0"}) ply += place + row + "\n";
     const Drawing d = seen(scene_with_file("a.ply", ply + "3 0 1 2\n", "color = '" + sum + ") / 60, 0, 0)'"),
                            pixel_camera(kSide, kSide));
     EXPECT_NEAR(d.at("R", 60, 60), 0.25, 1e-4);
+}
+
+/// Lines of equal v: what a row covers depends on its v alone, and the mean is the tone, in perspective, too.
+TEST(SurfaceFileValues, HatchingMayLieOnTextures) {
+    const std::string hatch = "shading = \"hatch\"\nspace = \"uv\"\nangle = 0\nlevels = 1\nspacing = 12\ntone = 0.6";
+    const Camera above = perspective_camera({0, 0, 4}, {0, 0, 0}, 35);
+    const Drawing d = seen(scene_with_file("a.obj", kSquareObj, hatch), above);
+    // 1.26 / 60 world units a pixel; v changes by 2.5 a unit: lines are 2^floor(log2(12 dv)) apart in v.
+    const double dv = 2.5 * 4 * std::tan(glm::radians(17.5)) / 60, apart = std::exp2(std::floor(std::log2(12 * dv)));
+    double sum = 0;
+    int rows = 0, dark = 0;
+    for (int y = 16; y < 104; ++y, ++rows) {
+        sum += d.at("R", 60, y);
+        for (const int x : {20, 45, 75, 100}) ASSERT_NEAR(d.at("R", x, y), d.at("R", 60, y), 1e-6) << x << ' ' << y;
+        const double v = 2.5 * (1 + met_at(above, 35, 60, y).y), from_line = v / apart - std::round(v / apart);
+        if (std::abs(from_line) * apart < 0.1 * apart && d.at("R", 60, y) < 0.2) ++dark;
+        if (std::abs(from_line) < 0.02) {
+            ASSERT_LT(d.at("R", 60, y), 0.2) << y;
+        }
+    }
+    EXPECT_GT(dark, 6);
+    EXPECT_NEAR(sum / rows, 0.6, 0.03);
+
+    const Drawing slanted =
+        seen(scene_with_file("a.obj", kSquareObj, hatch), perspective_camera({0.6, -1.9, 0.8}, {0, -0.2, 0}, 50));
+    double mean = 0;
+    int count = 0;
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            if (slanted.at("A", x, y) < 1) continue;
+            mean += slanted.at("R", x, y);
+            ++count;
+        }
+    }
+    EXPECT_NEAR(mean / count, 0.6, 0.03);
+
+    // Without texture coordinates the tone is even.
+    const Scene without = scene_with_file("a.ply", kSquarePly, hatch);
+    EXPECT_EQ(without.notes, std::vector<std::string>{
+                                 "[surfaces] reads texture coordinates (u, v), which 'square/a' has not: 0 there"});
+    const Drawing even = seen(without, above);
+    for (int y = 20; y < 100; ++y) ASSERT_NEAR(even.at("R", 60, y), 0.6, 1e-4);
 }
 
 TEST(SurfaceFileValues, ThreadsAndCropsChangeNothing) {
