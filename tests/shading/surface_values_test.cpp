@@ -160,9 +160,9 @@ TEST(SurfaceValues, OnlyWhatTheSheetReadsIsKnown) {
 
 TEST(SheetAttributes, AreFoundInTexts) {
     const auto wish = [](const std::string& text) {
-        AttributeWish wish;
-        add_attributes_named_in(text, wish);
-        return wish;
+        AttributeWish found;
+        add_attributes_named_in(text, found);
+        return found;
     };
     EXPECT_TRUE(wish("kr + t * noise(s) + C.r + N.x").empty());
     EXPECT_TRUE(wish("u").uv);
