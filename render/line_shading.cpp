@@ -48,16 +48,6 @@ std::vector<ObjectOfLines> objects_of(const Frame& frame) {
     return objects;
 }
 
-/// The curvature of each object's mesh.
-std::vector<const MeshCurvature*> curvatures_of(const Frame& frame, SceneCurvatures& curvatures, int threads) {
-    std::vector<const MeshCurvature*> of_objects;
-    for (const SceneObject& object : frame.scene->objects) {
-        of_objects.push_back(&curvatures.of(frame.scene->meshes[object.mesh], object.mesh, frame.scene->meshes.size(),
-                                            frame.criteria.cos_crease_angle, threads));
-    }
-    return of_objects;
-}
-
 }  // namespace
 
 FoundLines found_lines(LineDrawing drawing, const Frame& frame, int threads) {

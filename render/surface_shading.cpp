@@ -10,7 +10,21 @@ std::unique_ptr<const ShadedSurfaces> shaded_surfaces_of(const Frame& frame, int
     view.camera_to_world = frame.camera.to_world;
     view.lights = lights_of(frame);
     view.cos_crease_angle = frame.criteria.cos_crease_angle;
+    if (frame.surface_look->variables[number_of(SurfaceVariable::kr)]) {
+        view.curvature_store =
+            frame.prepared != nullptr ? frame.prepared->curvatures : std::make_shared<SceneCurvatures>();
+        view.curvatures = curvatures_of(frame, *view.curvature_store, threads);
+    }
     return std::make_unique<ShadedSurfaces>(*frame.surface_look, std::move(view), threads);
+}
+
+std::vector<const MeshCurvature*> curvatures_of(const Frame& frame, SceneCurvatures& curvatures, int threads) {
+    std::vector<const MeshCurvature*> of_objects;
+    for (const SceneObject& object : frame.scene->objects) {
+        of_objects.push_back(&curvatures.of(frame.scene->meshes[object.mesh], object.mesh, frame.scene->meshes.size(),
+                                            frame.criteria.cos_crease_angle, threads));
+    }
+    return of_objects;
 }
 
 std::shared_ptr<const ShadowCasters> shadow_casters_of(const Frame& frame) {

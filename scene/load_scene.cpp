@@ -16,6 +16,7 @@
 #include "scene/object_names.h"
 #include "scene/scene_description.h"
 #include "shading/sheet/sheet_attributes.h"
+#include "shading/surface/surface_recipe.h"
 
 namespace burin {
 namespace {
@@ -61,8 +62,12 @@ class SceneLoader {
         scene_.gbuffer = from_.gbuffer;
         scene_.zbuffer = from_.zbuffer;
         scene_.wire = from_.wire;
-        if (from_.sheet) read_attributes_ = attributes_named_in(*from_.sheet);
-        kept_attributes_ = options.keeps_attributes ? AttributeWish::all() : read_attributes_;
+        if (from_.sheet) attribute_readers_.sheet = attributes_named_in(*from_.sheet);
+        kept_attributes_ = options.keeps_attributes ? AttributeWish::all() : attribute_readers_.sheet;
+        if (from_.surfaces.recipe) {
+            add_attributes_named_in(*from_.surfaces.recipe, attribute_readers_.surfaces);
+            add_attributes_named_in(*from_.surfaces.recipe, kept_attributes_);
+        }
         for (std::uint32_t i = 0; i < from_.materials.size(); ++i)
             material_numbers_.emplace(from_.materials[i].name, i);
     }
@@ -91,7 +96,7 @@ class SceneLoader {
         if (scene_.cameras.empty()) scene_.cameras.emplace_back();
         check_highlights();
         draw_lines_without_polygons(scene_);
-        for (std::string& note : notes_on_missing_attributes(scene_, read_attributes_, attribute_names_))
+        for (std::string& note : notes_on_missing_attributes(scene_, attribute_readers_, attribute_names_))
             scene_.notes.push_back(std::move(note));
         return std::move(scene_);
     }
@@ -268,8 +273,9 @@ class SceneLoader {
     std::map<std::string, std::uint32_t, std::less<>> material_numbers_;  // of those of the scene file
     std::map<std::tuple<std::string, int, SubdivisionScheme>, std::shared_ptr<LoadedModel>> files_;
     std::uint64_t polygons_ = 0;
-    AttributeWish read_attributes_, kept_attributes_;  // by the sheet; of files
-    std::vector<std::string> attribute_names_;         // of all files, if any are kept
+    AttributeReaders attribute_readers_;
+    AttributeWish kept_attributes_;             // of files
+    std::vector<std::string> attribute_names_;  // of all files, if any are kept
     std::vector<CameraSettings> file_cameras_;
 };
 

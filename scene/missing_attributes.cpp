@@ -1,5 +1,6 @@
 #include "scene/missing_attributes.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "mesh/text_scan.h"
@@ -19,11 +20,12 @@ std::string listed(const std::vector<std::string>& names) {
 
 }  // namespace
 
-std::vector<std::string> notes_on_missing_attributes(const Scene& scene, const AttributeWish& wish,
+std::vector<std::string> notes_on_missing_attributes(const Scene& scene, const AttributeReaders& readers,
                                                      const std::vector<std::string>& known) {
     std::vector<std::string> notes;
-    const auto look_for = [&](AttributeKind kind, const std::string& name, const std::string& what,
-                              const std::string& hint) {
+    const auto look_for = [&](AttributeKind kind, const std::string& name, bool by_sheet, bool by_surfaces,
+                              const std::string& what, const std::string& hint) {
+        if (!by_sheet && !by_surfaces) return;
         std::vector<std::string> without;
         for (const SceneObject& object : scene.objects) {
             const Mesh& mesh = scene.meshes[object.mesh];
@@ -31,13 +33,25 @@ std::vector<std::string> notes_on_missing_attributes(const Scene& scene, const A
                 without.push_back(object.name);
         }
         if (without.empty()) return;
-        notes.push_back("the style sheet reads " + what + ", which " + listed(without) +
-                        (without.size() == 1 ? " has" : " have") + " not: 0 there" + hint);
+        const std::string reader = !by_surfaces ? "the style sheet reads "
+                                   : !by_sheet  ? "[surfaces] reads "
+                                                : "the style sheet and [surfaces] read ";
+        notes.push_back(reader + what + ", which " + listed(without) + (without.size() == 1 ? " has" : " have") +
+                        " not: 0 there" + hint);
     };
-    if (wish.uv) look_for(AttributeKind::uv, {}, "texture coordinates (u, v)", {});
-    if (wish.color) look_for(AttributeKind::color, {}, "colours of vertices (Cv)", {});
-    for (const std::string& name : wish.named) {
-        look_for(AttributeKind::named, name, "the vertex attribute '" + printable(name, 200) + "'",
+    const AttributeWish &sheet = readers.sheet, &surfaces = readers.surfaces;
+    look_for(AttributeKind::uv, {}, sheet.uv, surfaces.uv, "texture coordinates (u, v)", {});
+    look_for(AttributeKind::color, {}, sheet.color, surfaces.color, "colours of vertices (Cv)", {});
+    const auto asks = [](const AttributeWish& wish, const std::string& name) {
+        return std::find(wish.named.begin(), wish.named.end(), name) != wish.named.end();
+    };
+    std::vector<std::string> names = sheet.named;
+    for (const std::string& name : surfaces.named) {
+        if (!asks(sheet, name)) names.push_back(name);
+    }
+    for (const std::string& name : names) {
+        look_for(AttributeKind::named, name, asks(sheet, name), asks(surfaces, name),
+                 "the vertex attribute '" + printable(name, 200) + "'",
                  known.empty() ? "; the models have none with a name" : "; the models have " + listed(known));
     }
     return notes;

@@ -7,9 +7,14 @@
 
 namespace burin {
 
-/// What is asked for of the values that files give at vertices, and objects have not: a note for each, with their
-/// names. `known`: the names that the models' files have.
-std::vector<std::string> notes_on_missing_attributes(const Scene& scene, const AttributeWish& wish,
+/// Who asks for the values that files give at vertices.
+struct AttributeReaders {
+    AttributeWish sheet, surfaces;
+};
+
+/// What is asked for and objects have not: a note for each, with their names. `known`: the names that the models'
+/// files have.
+std::vector<std::string> notes_on_missing_attributes(const Scene& scene, const AttributeReaders& readers,
                                                      const std::vector<std::string>& known);
 
 }  // namespace burin

@@ -145,12 +145,10 @@ class SurfacesReader {
         if (table_.has("spacing"))
             recipe.spacing = values_.value(table_, "spacing", {Rule::Of::length, 0, 4096, false, true});
         check_no_world(recipe.spacing);
-        if (table_.is_text("space") && table_.text("space") == "uv")
-            table_.fail("space", "\"uv\" is not in this version");
-        recipe.space = table_.choice("space", {"screen", "object"}) == 1u ? HatchSpace::object : HatchSpace::screen;
+        recipe.space = static_cast<HatchSpace>(table_.choice("space", {"screen", "object", "uv"}).value_or(0));
         const bool is_on_object = recipe.space == HatchSpace::object;
         if (is_on_object && table_.has("angle"))
-            table_.fail("angle", "is of lines on the screen; give an axis instead");
+            table_.fail("angle", "is of lines on the screen or on textures; give an axis instead");
         if (!is_on_object && table_.has("axis")) table_.fail("axis", "is of lines on objects; add space = \"object\"");
         recipe.angle_deg = table_.number("angle", {-360, 360}).value_or(recipe.angle_deg);
         recipe.axis = table_.vector("axis").value_or(recipe.axis);

@@ -21,14 +21,17 @@ void add_attributes_named_in(std::string_view expression, AttributeWish& wish) {
     }
 }
 
+void add_attributes_named_in(const StyleValue& value, AttributeWish& wish) {
+    const bool is_text = value.kind == StyleValue::Kind::ramp || value.kind == StyleValue::Kind::expression;
+    if (is_text) add_attributes_named_in(value.source.text, wish);
+}
+
 AttributeWish attributes_named_in(const StyleSheet& sheet) {
     AttributeWish wish;
     for (const SheetLet& let : sheet.lets) add_attributes_named_in(let.text.text, wish);
     for (const SheetStyle& style : sheet.styles) {
-        for (const StyleValue* const value : {&style.width, &style.opacity, &style.offset, &style.color}) {
-            const bool is_text = value->kind == StyleValue::Kind::ramp || value->kind == StyleValue::Kind::expression;
-            if (is_text) add_attributes_named_in(value->source.text, wish);
-        }
+        for (const StyleValue* const value : {&style.width, &style.opacity, &style.offset, &style.color})
+            add_attributes_named_in(*value, wish);
     }
     return wish;
 }

@@ -13,5 +13,7 @@ AttributeWish attributes_named_in(const StyleSheet& sheet);
 
 /// The same of one expression, added to what is there. A text that is none adds what stands before its fault.
 void add_attributes_named_in(std::string_view expression, AttributeWish& wish);
+/// The same of a value; constants name nothing.
+void add_attributes_named_in(const StyleValue& value, AttributeWish& wish);
 
 }  // namespace burin

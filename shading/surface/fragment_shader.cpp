@@ -29,11 +29,14 @@ FragmentShader::FragmentShader(const ShadedSurfaces& surfaces)
     : surfaces_(surfaces), look_(surfaces.look()), projection_(surfaces.surfaces().projection) {
     const bool is_on_object = look_.shading == SurfaceShading::hatch && look_.hatch_space == HatchSpace::object;
     const bool reads_light = look_.shading == SurfaceShading::toon || look_.shading == SurfaceShading::gooch;
-    SurfaceVariables of_pixel;
+    SurfaceVariables of_pixel, of_file;
     for (const S v : {S::x, S::y, S::C, S::object, S::material}) of_pixel.set(number_of(v));
-    needs_places_ = look_.needs_lit || reads_light || is_on_object || (look_.variables & ~of_pixel).any();
+    for (const S v : {S::u, S::v, S::Cv, S::attribute}) of_file.set(number_of(v));
+    needs_places_ = look_.needs_lit || reads_light || is_on_object || (look_.variables & ~(of_pixel | of_file)).any();
+    needs_shares_ = !look_.layers.empty() || look_.variables[number_of(S::kr)];
     needs_changes_ = look_.shading == SurfaceShading::toon || is_on_object;
     columns_.resize(look_.inputs.size() * kBlock);
+    column_list_.resize(look_.inputs.size());
     std::size_t results = 0;
     for (const ExpressionOutput& output : look_.program.outputs()) results += output.components;
     values_.resize(results * kBlock);
@@ -45,7 +48,9 @@ FragmentShader::FragmentShader(const ShadedSurfaces& surfaces)
     for (int level = 0; level < look_.hatch_levels; ++level) {
         const double turn = glm::radians(kLevelTurnsDeg[level]);
         const double angle = glm::radians(look_.hatch_angle_deg) + turn;
-        hatch_directions_.emplace_back(std::sin(angle), std::cos(angle));  // across the lines; y runs down
+        const bool is_uv = look_.hatch_space == HatchSpace::uv;
+        hatch_directions_.emplace_back(is_uv ? -std::sin(angle) : std::sin(angle),
+                                       std::cos(angle));  // across the lines; y runs down, v up
         hatch_axes_.push_back(level % 2 == 0 ? unit(axis * std::cos(turn) + across * std::sin(turn))
                                              : unit(axis * std::cos(turn) + other * std::sin(turn)));
         const glm::dvec3 aside(0.36, 0.48, 0.8);
@@ -78,6 +83,9 @@ void FragmentShader::shade_block(std::span<const SurfaceFragment> fragments, glm
         triangle_at_[i] = is_known ? triangle_at_[i - 1] : triangle_number(fragments[i].surface);
         if (needs_places_) places_[i] = triangle_of(i).at(fragments[i].place);
         if (needs_changes_) changes_[i] = triangle_of(i).changes_at(fragments[i].place, places_[i]);
+    }
+    if (needs_shares_) {
+        for (std::size_t i = 0; i < fragments.size(); ++i) shares_[i] = triangle_of(i).shares_at(fragments[i].place);
     }
     if (look_.needs_lit) {
         for (std::size_t i = 0; i < fragments.size(); ++i) lit_[i] = lit_share(i, fragments[i].place);
@@ -158,25 +166,44 @@ void FragmentShader::fill_column(const SurfaceInput& input, std::span<const Surf
             return each([&](std::size_t i) { return triangle_of(i).object_id(); });
         case S::material:
             return each([&](std::size_t i) { return triangle_of(i).material_id(); });
+        case S::kr:
+            return each([&, eye = light_at_eye(projection_)](std::size_t i) {
+                const SurfaceId id = triangle_of(i).id();
+                return radial_curvature(surfaces_.curvature(id.instance), id.triangle, shares_[i],
+                                        glm::dmat3(surfaces_.to_object(id.instance)), places_[i].normal,
+                                        eye.towards(places_[i].position));
+            });
+        case S::u:
+        case S::v:
+            return each([&](std::size_t i) { return file_value(i, input.layer, input.variable == S::u ? 0 : 1); });
+        case S::Cv:
+        case S::attribute:
+            return each([&](std::size_t i) { return file_value(i, input.layer, input.component); });
     }
 }
 
 void FragmentShader::evaluate(std::span<const SurfaceFragment> fragments) {
-    std::array<const float*, 3 * kSurfaceVariableCount> columns{};
     for (std::size_t k = 0; k < look_.inputs.size(); ++k) {
-        float* const to = &columns_[k * kBlock];
-        fill_column(look_.inputs[k], fragments, to);
-        columns[k] = to;
+        fill_column(look_.inputs[k], fragments, &columns_[k * kBlock]);
+        column_list_[k] = &columns_[k * kBlock];
     }
     std::array<float*, 9> values{};
     for (std::size_t k = 0; k * kBlock < values_.size(); ++k) values[k] = &values_[k * kBlock];
     std::array<NotNumbers, 3> found{};
     const std::size_t results = look_.program.outputs().size();
-    look_.program.evaluate(std::span(columns).first(look_.inputs.size()), fragments.size(), values,
-                           std::span(found).first(results));
+    look_.program.evaluate(column_list_, fragments.size(), values, std::span(found).first(results));
     std::uint64_t count = 0;
     for (const NotNumbers& of_result : found) count += of_result.count;
     if (count != 0) surfaces_.count_not_numbers(count);
+}
+
+float FragmentShader::file_value(std::size_t i, std::size_t layer, std::size_t component) const {
+    const SurfaceId id = triangle_of(i).id();
+    const AttributeLayer* const values = surfaces_.layer(id.instance, layer);
+    if (values == nullptr) return 0;
+    std::array<float, 3> row{};
+    attribute_at(*values, id.triangle, shares_[i], row.data());
+    return row[component];
 }
 
 float FragmentShader::lit_share(std::size_t i, glm::dvec2 pixel) const {
@@ -256,6 +283,28 @@ double FragmentShader::covered_on_object(std::size_t i, const glm::dvec3& axis, 
     return covered_by_adaptive_lines(place, std::max(glm::length(change), least), look_.hatch_spacing_px, width);
 }
 
+double FragmentShader::covered_on_texture(std::size_t i, const glm::dvec2& across, double width,
+                                          glm::dvec2 pixel) const {
+    const ShadedTriangle& triangle = triangle_of(i);
+    const SurfaceId id = triangle.id();
+    const AttributeLayer* const uv = surfaces_.layer(id.instance, look_.hatch_layer);
+    const std::uint32_t* const rows = uv != nullptr ? &uv->rows[3 * std::size_t{id.triangle}] : nullptr;
+    if (rows == nullptr || std::find(rows, rows + 3, AttributeLayer::kNoRow) != rows + 3) return width;
+    const auto changes = triangle.share_changes_at(pixel);
+    double place = 0;
+    glm::dvec2 change(0.0);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::span<const float> row = uv->row(rows[k]);
+        const double at_corner = across.x * static_cast<double>(row[0]) + across.y * static_cast<double>(row[1]);
+        place += shares_[i][k] * at_corner;
+        change += glm::dvec2(changes[0][k], changes[1][k]) * at_corner;
+    }
+    const double per_px = glm::length(change);
+    // Where the texture stands still, lines have no place: the tone is even.
+    if (!(per_px > 1e-100 && per_px < 1e100)) return width;
+    return covered_by_adaptive_lines(place, per_px, look_.hatch_spacing_px, width);
+}
+
 glm::dvec3 FragmentShader::axis_in_view(std::size_t i, const glm::dvec3& axis) const {
     const glm::dmat4& to_object = surfaces_.to_object(triangle_of(i).id().instance);
     return {glm::dot(axis, glm::dvec3(to_object[0])), glm::dot(axis, glm::dvec3(to_object[1])),
@@ -267,6 +316,7 @@ double FragmentShader::free_of_level(std::size_t i, std::size_t level, double wi
         const double place = glm::dot(pixel, hatch_directions_[level]) / look_.hatch_spacing_px;
         return 1 - covered_by_lines(place, 1 / look_.hatch_spacing_px, width);
     }
+    if (look_.hatch_space == HatchSpace::uv) return 1 - covered_on_texture(i, hatch_directions_[level], width, pixel);
     // Where the planes of the level hardly cut the surface, others take over.
     const glm::dvec3& axis = hatch_axes_[level];
     const double cosine = std::min(std::abs(glm::dot(unit(axis_in_view(i, axis)), places_[i].normal)), 1.0);

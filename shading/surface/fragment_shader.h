@@ -39,6 +39,8 @@ class FragmentShader {
     std::uint16_t triangle_number(SurfaceId id);
     void evaluate(std::span<const SurfaceFragment> fragments);
     void fill_column(const SurfaceInput& input, std::span<const SurfaceFragment> fragments, float* to) const;
+    /// A number of a layer of values of files.
+    float file_value(std::size_t i, std::size_t layer, std::size_t component) const;
     /// With `in_shadow`: where the key light is hidden.
     Light light_at(std::size_t i, bool in_shadow) const;
     /// The share of a pixel's part that the key light reaches.
@@ -50,14 +52,16 @@ class FragmentShader {
     double free_of_level(std::size_t i, std::size_t level, double width, glm::dvec2 pixel) const;
     /// What planes across an axis of the object cover.
     double covered_on_object(std::size_t i, const glm::dvec3& axis, double width) const;
+    /// What lines across a direction of the texture cover.
+    double covered_on_texture(std::size_t i, const glm::dvec2& across, double width, glm::dvec2 pixel) const;
     glm::dvec3 axis_in_view(std::size_t i, const glm::dvec3& axis) const;
     const ShadedTriangle& triangle_of(std::size_t i) const { return triangles_[triangle_at_[i]]; }
 
     const ShadedSurfaces& surfaces_;
     const SurfaceLook& look_;
     const Projection& projection_;
-    bool needs_places_, needs_changes_;
-    std::vector<glm::dvec2> hatch_directions_;  // on the screen, per level
+    bool needs_places_, needs_changes_, needs_shares_;
+    std::vector<glm::dvec2> hatch_directions_;  // on the screen, or in texture coordinates, per level
     std::vector<glm::dvec3> hatch_axes_;        // in the object, per level
     std::vector<glm::dvec3> other_axes_;        // across these, for surfaces that lie in their planes
 
@@ -68,6 +72,8 @@ class FragmentShader {
     std::array<SurfacePlace, kBlock> places_{};
     std::array<SurfaceChanges, kBlock> changes_{};
     std::array<float, kBlock> lit_{};
+    std::array<std::array<double, 3>, kBlock> shares_{};  // of a triangle's corners
+    std::vector<const float*> column_list_;
     std::vector<float> columns_;  // of the program's inputs, one after the other
     std::vector<float> values_;   // of its results
 };

@@ -20,6 +20,8 @@ ShadedSurfaces::ShadedSurfaces(const SurfaceLook& look, ShadedView view, int thr
         glm::dmat4 to_object(back);
         to_object[3] = glm::dvec4(instance.mesh->origin - back * glm::dvec3(instance.to_view[3]), 1.0);
         to_object_.push_back(to_object);
+        for (const SurfaceLayer& layer : look.layers)
+            layers_.push_back(find_layer(instance.mesh->attributes, layer.kind, layer.name));
     }
     if (look.needs_lit) casters_.emplace(*view_.surfaces, view_.lights.front(), which_cast_shadows(view_.materials));
     if (!look.has_smooth_normals) return;

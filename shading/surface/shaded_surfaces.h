@@ -4,12 +4,15 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "lines/corner_normals.h"
+#include "lines/mesh_curvature.h"
 #include "mesh/polygon_soup.h"
+#include "mesh/vertex_attributes.h"
 #include "shading/surface/light.h"
 #include "shading/surface/shadow_casters.h"
 #include "shading/surface/surface_look.h"
@@ -22,8 +25,10 @@ struct ShadedView {
     const SurfaceSet* surfaces = nullptr;
     std::span<const Material> materials;
     glm::dmat4 camera_to_world{1.0};
-    std::vector<ViewLight> lights;  ///< the first one is the key light; never empty
-    double cos_crease_angle = 0;    ///< where smooth normals end
+    std::vector<ViewLight> lights;                     ///< the first one is the key light; never empty
+    double cos_crease_angle = 0;                       ///< where smooth normals end
+    std::vector<const MeshCurvature*> curvatures;      ///< per instance; empty: the look reads none
+    std::shared_ptr<SceneCurvatures> curvature_store;  ///< has these
 };
 
 /// Of each material: whether its surfaces cast shadows. Transparent ones do not.
@@ -46,6 +51,12 @@ class ShadedSurfaces {
     }
     /// What casts shadows in the light of the key light; nullptr: shadows are not asked for.
     const ShadowCasters* casters() const { return casters_ ? &*casters_ : nullptr; }
+    /// The values of an instance's file that are in a layer of the look; nullptr: the file has none.
+    const AttributeLayer* layer(std::uint32_t instance, std::size_t number) const {
+        return layers_[instance * look_.layers.size() + number];
+    }
+    /// How an instance's mesh bends. The look reads it.
+    const MeshCurvature& curvature(std::uint32_t instance) const { return *view_.curvatures[instance]; }
     /// A view-space position in the coordinates of an instance's object, before its transform.
     const glm::dmat4& to_object(std::uint32_t instance) const { return to_object_[instance]; }
 
@@ -57,8 +68,9 @@ class ShadedSurfaces {
     const SurfaceLook& look_;
     ShadedView view_;
     std::vector<SmoothMesh> smooth_meshes_;
-    std::vector<const SmoothMesh*> smooth_of_;  // per instance
-    std::vector<glm::dmat4> to_object_;         // per instance
+    std::vector<const SmoothMesh*> smooth_of_;   // per instance
+    std::vector<glm::dmat4> to_object_;          // per instance
+    std::vector<const AttributeLayer*> layers_;  // per instance and layer of the look
     std::optional<ShadowCasters> casters_;
     mutable std::atomic<std::uint64_t> not_numbers_{0};
 };

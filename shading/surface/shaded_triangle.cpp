@@ -54,6 +54,17 @@ glm::dvec3 ShadedTriangle::shadow_place(glm::dvec2 pixel) const {
     return moved;
 }
 
+std::array<std::array<double, 3>, 2> ShadedTriangle::share_changes_at(glm::dvec2 pixel) const {
+    const auto [weights, scale] = weights_at(pixel);
+    std::array<std::array<double, 3>, 2> changes{};
+    for (int i = 0; i < 2; ++i) {
+        const double sum = weights_[0][i + 1] + weights_[1][i + 1] + weights_[2][i + 1];
+        for (std::size_t k = 0; k < 3; ++k)
+            changes[static_cast<std::size_t>(i)][k] = (weights_[k][i + 1] - weights[k] * scale * sum) * scale;
+    }
+    return changes;
+}
+
 SurfaceChanges ShadedTriangle::changes_at(glm::dvec2 pixel, const SurfacePlace& place) const {
     const auto [weights, scale] = weights_at(pixel);
     SurfaceChanges changes{};

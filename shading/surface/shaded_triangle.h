@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 
@@ -38,6 +39,13 @@ class ShadedTriangle {
         const glm::dvec3 normal = mean_of(normals_, weights);
         return {position, normal * (1 / std::max(glm::length(normal), 1e-300))};
     }
+    /// The shares of the corners in a place, with the sum 1.
+    std::array<double, 3> shares_at(glm::dvec2 pixel) const {
+        const auto [weights, scale] = weights_at(pixel);
+        return {weights[0] * scale, weights[1] * scale, weights[2] * scale};
+    }
+    /// How the shares change by a pixel to the right, and by one down.
+    std::array<std::array<double, 3>, 2> share_changes_at(glm::dvec2 pixel) const;
     /// The place is that at the pixel.
     SurfaceChanges changes_at(glm::dvec2 pixel, const SurfacePlace& place) const;
     /// Where a ray to a light begins that is to miss the neighbours of the triangle on a smooth surface: on that,

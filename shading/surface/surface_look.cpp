@@ -9,15 +9,16 @@
 #include "kernels/expression_kernels.h"
 #include "shading/expression.h"
 #include "shading/expression/ramp.h"
+#include "shading/sheet/sheet_attributes.h"
 #include "shading/sheet/sheet_symbols.h"
 
 namespace burin {
 namespace {
 
 constexpr float kMostColor = 65504;  // the largest half
-constexpr std::array<std::string_view, kSurfaceVariableCount> kNames = {
-    "x", "y", "depth", "distance", "px_size", "P", "PO", "N", "facing", "light", "lit", "C", "object", "material"};
-constexpr auto kLaterOnSurfaces = std::to_array<std::string_view>({"u", "v", "Cv", "attr", "kr"});
+constexpr std::array<std::string_view, kSurfaceVariableCount - 1> kNames = {
+    "x",     "y",   "depth", "distance", "px_size",  "P",  "PO", "N", "facing",
+    "light", "lit", "C",     "object",   "material", "kr", "u",  "v", "Cv"};
 
 std::optional<SurfaceVariable> surface_variable_named(std::string_view name) {
     const auto* const at = std::find(kNames.begin(), kNames.end(), name);
@@ -33,7 +34,6 @@ ExpressionSymbols surface_symbols(const SheetContext& context) {
         symbols.variables.push_back({"lit"});
     for (ExpressionVariable& v : symbols.variables) v.rate = ValueRate::sample;
     symbols.later.clear();
-    for (const std::string_view name : kLaterOnSurfaces) symbols.later.emplace_back(name);
     return symbols;
 }
 
@@ -73,11 +73,7 @@ class SurfaceCompiler {
 
     ExpressionProgram program(const SourcePosition& where) const {
         try {
-            ExpressionProgram made = compiler_.program();
-            for (const ExpressionInput& input : made.inputs()) {
-                if (input.is_attribute) throw ExpressionError(1, "attr() of surfaces is not in this version");
-            }
-            return made;
+            return compiler_.program();
         } catch (const ExpressionError& error) {
             throw InputError(where, std::string("[surfaces]: ") + error.what());
         }
@@ -87,6 +83,19 @@ class SurfaceCompiler {
     ExpressionSymbols symbols_;
     ExpressionCompiler compiler_;
 };
+
+SurfaceInput surface_input(const ExpressionInput& input) {
+    if (input.is_attribute) return {SurfaceVariable::attribute, 0};
+    return {*surface_variable_named(input.name), input.component};
+}
+
+/// Where a variable is a value of files, which one.
+std::optional<SurfaceLayer> layer_of(SurfaceVariable variable, const std::string& name) {
+    if (variable == SurfaceVariable::attribute) return SurfaceLayer{AttributeKind::named, name};
+    if (variable == SurfaceVariable::Cv) return SurfaceLayer{AttributeKind::color, {}};
+    if (variable == SurfaceVariable::u || variable == SurfaceVariable::v) return SurfaceLayer{AttributeKind::uv, {}};
+    return std::nullopt;
+}
 
 double length_px(const StyleValue& value, double least, double most, const SheetContext& context) {
     const double px = in_pixels(value.number, value.unit, context);
@@ -168,11 +177,27 @@ SurfaceLook::SurfaceLook(SurfaceShading of, const SurfaceRecipe& recipe, const S
     }
     program = compiler.program(recipe.where);
     for (const ExpressionInput& input : program.inputs()) {
-        const SurfaceVariable variable = *surface_variable_named(input.name);
-        inputs.push_back({variable, input.component});
-        variables.set(number_of(variable));
+        SurfaceInput& made = inputs.emplace_back(surface_input(input));
+        if (const auto layer = layer_of(made.variable, input.name)) made.layer = layer_number(*layer);
+        variables.set(number_of(made.variable));
     }
+    if (shading == SurfaceShading::hatch && hatch_space == HatchSpace::uv)
+        hatch_layer = layer_number({AttributeKind::uv, {}});
     needs_lit = has_shadows || variables[number_of(SurfaceVariable::lit)];
+}
+
+std::size_t SurfaceLook::layer_number(const SurfaceLayer& layer) {
+    const auto at = std::find(layers.begin(), layers.end(), layer);
+    const auto number = static_cast<std::size_t>(at - layers.begin());
+    if (at == layers.end()) layers.push_back(layer);
+    return number;
+}
+
+void add_attributes_named_in(const SurfaceRecipe& recipe, AttributeWish& wish) {
+    for (const StyleValue* const value : {&recipe.color, &recipe.tone, &recipe.ink, &recipe.ground})
+        add_attributes_named_in(*value, wish);
+    wish.uv = wish.uv || recipe.space == HatchSpace::uv;
+    if (recipe.detail) add_attributes_named_in(recipe.detail->over, wish);
 }
 
 Ramp default_tones() {

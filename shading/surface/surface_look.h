@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "mesh/vertex_attributes.h"
 #include "shading/expression/program.h"
 #include "shading/sheet/compiled_sheet.h"
 #include "shading/surface/surface_recipe.h"
@@ -31,9 +33,14 @@ enum class SurfaceVariable : std::uint8_t {
     lit,
     C,
     object,
-    material
+    material,
+    kr,
+    u,
+    v,
+    Cv,
+    attribute  ///< attr("name") of a file
 };
-constexpr std::size_t kSurfaceVariableCount = static_cast<std::size_t>(SurfaceVariable::material) + 1;
+constexpr std::size_t kSurfaceVariableCount = static_cast<std::size_t>(SurfaceVariable::attribute) + 1;
 
 using SurfaceVariables = std::bitset<kSurfaceVariableCount>;
 constexpr std::size_t number_of(SurfaceVariable v) { return static_cast<std::size_t>(v); }
@@ -42,6 +49,14 @@ constexpr std::size_t number_of(SurfaceVariable v) { return static_cast<std::siz
 struct SurfaceInput {
     SurfaceVariable variable;
     std::size_t component;  ///< 0 to 2 of a colour or a vector
+    std::size_t layer = 0;  ///< of a value of files: its number in the layers of the look
+};
+
+/// Values of files that a look reads: texture coordinates, colours, or numbers of a name.
+struct SurfaceLayer {
+    AttributeKind kind;
+    std::string name;  ///< of numbers
+    bool operator==(const SurfaceLayer&) const = default;
 };
 
 /// Tones over the light of a place.
@@ -82,7 +97,13 @@ struct SurfaceLook {
     ExpressionProgram program;
     std::vector<SurfaceInput> inputs;  ///< of the program
     SurfaceVariables variables;        ///< that it reads
+    std::vector<SurfaceLayer> layers;  ///< the values of files that it reads, or the hatching
+    std::size_t hatch_layer = 0;       ///< of a hatching in texture coordinates: their layer
     bool needs_lit = false;            ///< whether shadows are to be known
+
+  private:
+    /// The number of a layer, which is added if it is not there.
+    std::size_t layer_number(const SurfaceLayer& layer);
 };
 
 }  // namespace burin

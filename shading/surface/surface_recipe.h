@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "mesh/vertex_attributes.h"
 #include "shading/sheet/style_sheet.h"
 #include "shading/surface_shader.h"
 
@@ -15,6 +16,7 @@ namespace burin {
 enum class HatchSpace : std::uint8_t {
     screen,  ///< on the picture
     object,  ///< on the surface, which they cut as parallel planes do
+    uv,      ///< on the surface, straight in its texture coordinates
 };
 
 /// What the shadings are made of that vary over a surface, as it stands in a file; checked as far as that goes without
@@ -42,10 +44,13 @@ struct SurfaceRecipe {
     StyleValue tone, ink = StyleValue::of_color({0, 0, 0}), ground;
     StyleValue spacing = StyleValue::of(6);  ///< a constant: from line to line, in pixels
     HatchSpace space = HatchSpace::screen;
-    double angle_deg = 45;           ///< of the first level on the picture, counter-clockwise
+    double angle_deg = 45;           ///< of the first level on the picture, counter-clockwise; or from u to v
     glm::dvec3 axis{0.0, 1.0, 0.0};  ///< in the object, across the planes of its first level
     int levels = 3;
 };
+
+/// Adds what the texts of a recipe name of the values that files give at vertices.
+void add_attributes_named_in(const SurfaceRecipe& recipe, AttributeWish& wish);
 
 /// The steps of a drawing with two tones and a highlight.
 Ramp default_tones();

@@ -251,9 +251,9 @@ TEST(SurfaceShading, FaultsOfExpressionsHaveTheirPlace) {
     };
     const Case cases[] = {
         {"color = \"=C * depht\"", ":4:15: [surfaces] color: unknown variable 'depht', did you mean 'depth'?"},
-        {"color = \"=u\"", ":4:11: [surfaces] color: 'u' is not in this version"},
+        {"color = \"=N.x*s\"", ":4:15: [surfaces] color: unknown variable 's'"},
         {"color = \"=qi\"", ":4:11: [surfaces] color: unknown variable 'qi'"},
-        {"color = \"=attr(\\\"heat\\\") * C\"", "attr"},
+        {"color = \"=attr(x) * C\"", ":4:16: [surfaces] color: attr(\"name\") needs a text"},
         {"shading = \"hatch\"\ntone = \"=C\"", ":5:10: [surfaces] tone: a number is needed here"},
         {"shading = \"hatch\"\nspacing = \"9000pt\"", ":5:11: [surfaces] spacing: is 12000 px"},
         {"shading = \"toon\"\ndetail = { over = \"N\", tones = { stops = [[0, 1]] } }",

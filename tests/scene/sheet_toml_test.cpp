@@ -36,14 +36,14 @@ const std::string kInk =
     "style_version = 1\nlight = [0, 0, 1]\n[[set]]\nname = \"a\"\nclasses = [\"crease\"]\nstyle = "
     "\"ink\"\n[style.ink]\n";
 
-struct Mistake {
+struct SheetMistake {
     const char* text;
     const char* place;
     const char* words;
 };
 
-void expect_mistakes(const std::string& before, std::initializer_list<Mistake> mistakes) {
-    for (const Mistake& m : mistakes) {
+void expect_mistakes(const std::string& before, std::initializer_list<SheetMistake> mistakes) {
+    for (const SheetMistake& m : mistakes) {
         const std::string error = error_of(before + m.text);
         EXPECT_EQ(error.find("s.toml:" + std::string(m.place) + ": "), 0u) << m.text << "\n-> " << error;
         EXPECT_NE(error.find(m.words), std::string::npos) << m.text << "\n-> " << error;
