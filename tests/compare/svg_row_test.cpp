@@ -77,20 +77,60 @@ TEST(SvgRow, IsAsNearTheTruthAsPathsCanBe) {
     for (const char* name : {"d/svg.png", "d/svg_diff.png"}) EXPECT_GT(fs::file_size(folder.file(name)), 100u) << name;
 }
 
-// What is drawn in parts fits together, and a crop is the same part of the picture.
-TEST(SvgRow, IsTheSameForALargePictureAndACropOfIt) {
-    if (find_svg_rasterizer().empty()) GTEST_SKIP() << "rsvg-convert is not installed";
-    const TemporaryFolder folder;
-    folder.write("cube.obj", kCubeObj);
-    const ProgramResult r =
-        compare_in(folder, {"--size", "2100x60", "--crop", "900,0,1200,60", "--methods", "svg", "-w", "40"});
-    ASSERT_EQ(r.status, 0) << r.err;
-    const auto svg = nlohmann::json::parse(read_file(folder.file("d/metrics.json")))["methods"][0];
-    const ProgramResult whole = compare_in(folder, {"--size", "2100x60", "--methods", "svg", "-w", "40"});
-    ASSERT_EQ(whole.status, 0) << whole.err;
-    const auto all = nlohmann::json::parse(read_file(folder.file("d/metrics.json")))["methods"][0];
-    EXPECT_GT(all["psnr98_db"], 43.0);
-    EXPECT_NEAR(all["psnr98_db"].get<double>(), svg["psnr98_db"].get<double>(), 1);
+/// A straight stroke, one pixel wide and half opaque, from 10.5 to 1090.5.
+VectorDrawing long_stroke(double y, glm::vec3 color) {
+    VectorDrawing drawing;
+    drawing.width_px = 1200;
+    drawing.height_px = 8;
+    drawing.crop = {0, 0, 1200, 8};
+    drawing.paper = glm::vec3(1.0f);
+    drawing.styles.resize(1);
+    drawing.styles[0].color = color;
+    drawing.styles[0].opacity = 0.5f;
+    drawing.styles[0].caps = StrokeCaps::butt;
+    PathStep step;
+    step.to = {1090.5, y};
+    drawing.steps = {step};
+    VectorPath path;
+    path.start = {10.5, y};
+    path.step_count = 1;
+    drawing.paths = {path};
+    drawing.groups.resize(1);
+    drawing.groups[0].path_count = 1;
+    drawing.sets = {"lines"};
+    return drawing;
+}
+
+// The picture is wider than what is drawn at once.
+TEST(RasterizeSvg, GivesAreasAsCoverageAndLinearColours) {
+    const std::string rasterizer = find_svg_rasterizer();
+    if (rasterizer.empty()) GTEST_SKIP() << "rsvg-convert is not installed";
+    const glm::vec3 color{0.5f, 0.0f, 1.0f};
+    const std::vector<glm::vec4> pixels = rasterize_svg(long_stroke(4.25, color), rasterizer);
+    ASSERT_EQ(pixels.size(), 1200u * 8u);
+    for (int y = 0; y < 8; ++y) {
+        const float of_row = y == 3 ? 0.25f : (y == 4 ? 0.75f : 0.0f);
+        for (int x = 0; x < 1200; ++x) {
+            const float of_column = x == 10 || x == 1090 ? 0.5f : (x > 10 && x < 1090 ? 1.0f : 0.0f);
+            const glm::vec4& pixel = pixels[static_cast<std::size_t>(y * 1200 + x)];
+            const float alpha = 0.5f * of_row * of_column;
+            ASSERT_NEAR(pixel.a, alpha, 0.005f) << x << " " << y;
+            for (int c = 0; c < 3; ++c) ASSERT_NEAR(pixel[c], alpha * color[c], 0.008f) << x << " " << y;
+        }
+    }
+}
+
+TEST(RasterizeSvg, ACropIsThatPartOfThePicture) {
+    const std::string rasterizer = find_svg_rasterizer();
+    if (rasterizer.empty()) GTEST_SKIP() << "rsvg-convert is not installed";
+    VectorDrawing drawing = long_stroke(4.25, glm::vec3(0.0f));
+    const std::vector<glm::vec4> whole = rasterize_svg(drawing, rasterizer);
+    drawing.crop = {1005, 2, 1100, 7};
+    const std::vector<glm::vec4> part = rasterize_svg(drawing, rasterizer);
+    ASSERT_EQ(part.size(), 95u * 5u);
+    for (std::size_t i = 0; i < part.size(); ++i) {
+        EXPECT_EQ(part[i], whole[(i / 95 + 2) * 1200 + i % 95 + 1005]) << i;
+    }
 }
 
 TEST(SvgRow, IsLeftOutWithoutTheProgramThatDrawsIt) {
