@@ -1,9 +1,10 @@
 #include "compare/rasterize_svg.h"
 
-#include <stdlib.h>
+#include <stdlib.h>  // mkdtemp
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
@@ -28,9 +29,9 @@ constexpr double kTimeLimit_s = 300;  ///< for a part
 class ScratchFolder {
   public:
     ScratchFolder() {
-        std::error_code error;
-        const std::filesystem::path parent = std::filesystem::temp_directory_path(error);
-        path_ = ((error ? "/tmp" : parent) / "burin-compare-XXXXXX").string();
+        const char* const parent = std::getenv("TMPDIR");
+        path_ =
+            (std::filesystem::path(parent != nullptr && *parent != '\0' ? parent : "/tmp") / "burin-XXXXXX").string();
         if (::mkdtemp(path_.data()) == nullptr) {
             throw InputError(path_ + ": cannot make this temporary folder: " + std::strerror(errno) +
                              "; set TMPDIR to a folder that can be written to");
@@ -63,10 +64,11 @@ DisplayImage draw_fine(const VectorDrawing& drawing, const std::string& rasteriz
                  "--output", png, svg},
                 folder.file("log.txt"), kTimeLimit_s);
     DisplayImage image = read_display_image(png);
-    if (image.width != width || image.height != height || image.channels != 4) {
+    // A picture that is opaque everywhere has no alpha channel.
+    if (image.width != width || image.height != height || (image.channels != 4 && image.channels != 3)) {
         throw InputError(rasterizer + ": made a picture of " + std::to_string(image.width) + "x" +
                          std::to_string(image.height) + " pixels with " + std::to_string(image.channels) +
-                         " channels, not " + std::to_string(width) + "x" + std::to_string(height) + " with 4");
+                         " channels, not " + std::to_string(width) + "x" + std::to_string(height) + " with 3 or 4");
     }
     return image;
 }
@@ -74,13 +76,14 @@ DisplayImage draw_fine(const VectorDrawing& drawing, const std::string& rasteriz
 /// The mean of a pixel's fine pixels; x and y count from the corner of the fine picture.
 glm::vec4 mean_color(const DisplayImage& fine, int x, int y) {
     constexpr float kWhole = 65535;
+    const auto channels = static_cast<std::size_t>(fine.channels);
     glm::vec4 sum(0.0f);
     for (int j = 0; j < kFine; ++j) {
         const std::size_t row = static_cast<std::size_t>(kFine * y + j) * static_cast<std::size_t>(fine.width);
-        const std::uint16_t* p = fine.pixels.data() + 4 * (row + static_cast<std::size_t>(kFine * x));
-        for (int i = 0; i < kFine; ++i, p += 4) {
-            if (p[3] == 0) continue;
-            const float alpha = static_cast<float>(p[3]) / kWhole;
+        const std::uint16_t* p = fine.pixels.data() + channels * (row + static_cast<std::size_t>(kFine * x));
+        for (int i = 0; i < kFine; ++i, p += channels) {
+            const float alpha = channels == 4 ? static_cast<float>(p[3]) / kWhole : 1;
+            if (alpha == 0) continue;
             for (int c = 0; c < 3; ++c) {
                 if (p[c] > 0) sum[c] += alpha * linear_from_srgb(static_cast<float>(p[c]) / kWhole);
             }

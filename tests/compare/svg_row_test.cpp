@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/error.h"
 #include "compare/rasterize_svg.h"
 #include "tests/cli/models.h"
 #include "tests/cli/program.h"
@@ -130,6 +131,29 @@ TEST(RasterizeSvg, ACropIsThatPartOfThePicture) {
     ASSERT_EQ(part.size(), 95u * 5u);
     for (std::size_t i = 0; i < part.size(); ++i) {
         EXPECT_EQ(part[i], whole[(i / 95 + 2) * 1200 + i % 95 + 1005]) << i;
+    }
+}
+
+// Such pictures of rsvg-convert have no alpha channel.
+TEST(RasterizeSvg, InkCanCoverAllOfThePicture) {
+    const std::string rasterizer = find_svg_rasterizer();
+    if (rasterizer.empty()) GTEST_SKIP() << "rsvg-convert is not installed";
+    VectorDrawing drawing = long_stroke(4, glm::vec3(0.5f, 0.0f, 1.0f));
+    drawing.styles[0].opacity = 1;
+    drawing.styles[0].width_px = 40;
+    drawing.crop = {20, 0, 30, 8};
+    for (const glm::vec4& pixel : rasterize_svg(drawing, rasterizer)) {
+        for (int c = 0; c < 4; ++c) EXPECT_NEAR(pixel[c], glm::vec4(0.5f, 0.0f, 1.0f, 1.0f)[c], 0.008f);
+    }
+}
+
+TEST(RasterizeSvg, NeedsAFolderForItsFiles) {
+    const ScopedVariable scratch("TMPDIR", "/nowhere/at/all");
+    try {
+        rasterize_svg(long_stroke(4, glm::vec3(0.0f)), "/bin/true");
+        FAIL() << "there is no such folder";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("set TMPDIR"), std::string::npos) << error.what();
     }
 }
 
