@@ -6,9 +6,12 @@
 #include "base/stopwatch.h"
 #include "cli/commands.h"
 #include "cli/job.h"
+#include "compare/rasterize_svg.h"
 #include "compare/report.h"
 #include "compare/run_comparison.h"
+#include "compare/svg_method.h"
 #include "compare/truth.h"
+#include "mesh/text_scan.h"
 #include "render/close_cracks.h"
 #include "render/copied_objects.h"
 
@@ -34,9 +37,9 @@ std::vector<OutputFile> files_in(const std::string& folder) {
     const auto add = [&](const std::string& name) {
         files.push_back({"--output", (std::filesystem::path(folder) / name).string()});
     };
-    for (const Method& method : methods()) {
-        add(std::string(method.name) + ".png");
-        add(std::string(method.name) + "_diff.png");
+    for (const Method* const method : compared_methods()) {
+        add(std::string(method->name) + ".png");
+        add(std::string(method->name) + "_diff.png");
     }
     for (const char* name : {"truth.png", "report.html", "metrics.csv", "metrics.json"}) add(name);
     return files;
@@ -49,13 +52,32 @@ void remove_earlier_results(const std::string& folder) {
     for (const OutputFile& file : files_in(folder)) std::filesystem::remove(file.path, ignored);
 }
 
-/// All methods but the truth itself, unless they are named.
-std::vector<const Method*> chosen_methods(const std::vector<std::string>& names) {
+/// All that can be compared but the truth itself, unless they are named. An SVG needs a program to draw it.
+std::vector<const Method*> chosen_methods(const Arguments& a) {
+    const bool has_rasterizer = !find_svg_rasterizer().empty();
     std::vector<const Method*> chosen;
-    for (const std::string& name : names) chosen.push_back(find_method(name));
-    if (!names.empty()) return chosen;
-    for (const Method& method : methods()) {
-        if (&method != &truth_method()) chosen.push_back(&method);
+    for (const std::string& name : a.methods) {
+        const Method* const method = find_compared_method(name);
+        if (method == nullptr) {
+            throw UsageError("--methods: unknown method '" + printable(name) +
+                             "'; burin methods lists them, and svg can be compared, too");
+        }
+        if (method == &svg_method() && !has_rasterizer) {
+            throw UsageError("--methods: svg is drawn by rsvg-convert, which is not installed; install librsvg2-bin, " +
+                             std::string("or leave svg out"));
+        }
+        chosen.push_back(method);
+    }
+    if (!chosen.empty()) return chosen;
+    for (const Method* const method : compared_methods()) {
+        if (method == &truth_method() || (method == &svg_method() && !has_rasterizer)) continue;
+        chosen.push_back(method);
+    }
+    if (!has_rasterizer && !a.quiet) {
+        std::fputs(
+            "burin: note: svg is not compared, for rsvg-convert, which draws it, is not installed; the package "
+            "librsvg2-bin has it\n",
+            stderr);
     }
     return chosen;
 }
@@ -95,6 +117,7 @@ void run_compare(const Arguments& a) {
     const bool shows_bar = !a.quiet && isatty(STDERR_FILENO) != 0;
     Progress progress(a.alf_progress ? ProgressStyle::alf : (shows_bar ? ProgressStyle::bar : ProgressStyle::none));
     const Stopwatch total;
+    const std::vector<const Method*> chosen = chosen_methods(a);
     Scene scene = load_input(a, files_in(a.output));
     if (scene.sheet) throw UsageError("--style: burin compare draws no style sheets; remove the style sheet");
     draw_what_all_can(scene, a.quiet);
@@ -108,7 +131,7 @@ void run_compare(const Arguments& a) {
     }
     make_folder(a.output);
     remove_earlier_results(a.output);
-    ComparisonOptions options{a.output, chosen_methods(a.methods), a.frames, a.threads, &progress};
+    ComparisonOptions options{a.output, chosen, a.frames, a.threads, &progress};
     Comparison so_far;
     try {
         const Comparison comparison = run_comparison(scene, a.input, view, options, [&](const Comparison& c) {

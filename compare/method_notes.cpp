@@ -92,6 +92,12 @@ constexpr MethodNote kNotes[] = {
      "visible parts of every line: a pixel's line is the area of all points within w/2 of "
      "them. It shares no code with the rasterizers.",
      "Slow."},
+    {"svg", 1,
+     "The lines that method abuffer finds, joined to paths, with curves fitted to them, and "
+     "written as SVG; rsvg-convert, a program of the library librsvg, draws them with four times "
+     "as many pixels along each side, and the mean alpha of these is a pixel's line.",
+     "Times and memory are not measured: most of them are the other program's. Surfaces are not "
+     "drawn. Strokes that cross add up as the other program mixes them."},
 };
 
 }  // namespace

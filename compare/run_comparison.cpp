@@ -9,6 +9,7 @@
 #include "compare/metrics_temporal.h"
 #include "compare/moving_frames.h"
 #include "compare/picture_metrics.h"
+#include "compare/svg_method.h"
 #include "compare/truth.h"
 #include "compare/width_match.h"
 
@@ -130,7 +131,7 @@ class ComparisonRunner {
         scene_.lines.classes = classes;
         scene_.lines.style.width_px = width_px;
         scene_.wire.width = wire;
-        LineRendering rendering = render_lines(method, scene_, view, run_);
+        LineRendering rendering = render(method, scene_, view);
         scene_.lines = lines;
         scene_.wire.width = wire_width;
         return rendering;
@@ -140,7 +141,14 @@ class ComparisonRunner {
         chart_->scene.lines.classes = chart_classes(method.draws);
         chart_->scene.lines.style.width_px = width_px;
         const View view{chart_->camera, chart_->width, chart_->height, {0, 0, chart_->width, chart_->height}};
-        return render_lines(method, chart_->scene, view, run_).coverage;
+        return render(method, chart_->scene, view).coverage;
+    }
+    LineRendering render(const Method& method, Scene& scene, const View& view) {
+        const bool has_paths = &method == &svg_method();
+        if (has_paths) draw_as_paths(scene);
+        LineRendering rendering = render_lines(method, scene, view, run_);
+        if (has_paths) draw_as_pixels(scene);
+        return rendering;
     }
 
     MethodResult measure(const Method& method) {
@@ -159,12 +167,8 @@ class ComparisonRunner {
         std::optional<LineRendering> drawing;
         if (!result.drawn.empty()) {
             drawing = draw(method, result.drawn, width_px_, WireWidth::published, view_);
-            MetricValues& v = result.published.values;
-            measure_time(method, result.drawn, *drawing, v);
-            if (drawing->memory_bytes) {
-                v[Metric::memory] =
-                    *drawing->memory_bytes / (static_cast<double>(view_.crop.width()) * view_.crop.height());
-            }
+            // What another program takes to draw an SVG says nothing about Burin.
+            if (&method != &svg_method()) measure_costs(method, result.drawn, *drawing, result.published.values);
         }
         next_part(name, kChartWeight);
         const EqualWidth equal_width = measure_on_chart(method, result);
@@ -177,7 +181,7 @@ class ComparisonRunner {
     }
 
     /// Quick methods run three times, and the median times count.
-    void measure_time(const Method& method, LineClassSet classes, const LineRendering& first, MetricValues& values) {
+    void measure_costs(const Method& method, LineClassSet classes, const LineRendering& first, MetricValues& values) {
         std::vector<double> wall{first.time_s}, cpu{first.cpu_time_s};
         for (int i = 0; i < 2 && first.time_s < kQuick_s; ++i) {
             const LineRendering again = draw(method, classes, width_px_, WireWidth::published, view_);
@@ -186,6 +190,10 @@ class ComparisonRunner {
         }
         values[Metric::time_s] = median_of(wall);
         values[Metric::cpu_time_s] = median_of(cpu);
+        if (first.memory_bytes) {
+            values[Metric::memory] =
+                *first.memory_bytes / (static_cast<double>(view_.crop.width()) * view_.crop.height());
+        }
     }
 
     /// How the row "at equal width" is drawn.
