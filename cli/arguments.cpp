@@ -149,7 +149,7 @@ void add_render_options(CLI::App& app, Texts& t) {
     app.add_option(
         "--find", t.find,
         "lines that are looked for: sheet (default), those that the style sheet asks for, or all, so that any "
-        "sheet can restyle them");
+        "sheet with the same crease_angle and contours can restyle them");
     app.add_option("-f,--frames", t.frames, "frames to render (not in this version)");
     app.add_option("--crop", t.crop, "render only these pixels, X0,Y0,X1,Y1, half open");
     app.add_option("--memory", t.memory,

@@ -307,7 +307,8 @@ void run_render(const Arguments& a) {
         throw InputError(a.input + ": --memory: " + error.what());
     } catch (const InputError& error) {
         if (writer && writer->has_failed()) throw;
-        throw InputError(a.input + ": " + error.what());
+        const std::string message = error.what();  // begins with the file where it has a place
+        throw InputError(message.starts_with(a.input + ":") ? message : a.input + ": " + message);
     }
     run.found_lines = nullptr;
     if (a.repeat > 0) {

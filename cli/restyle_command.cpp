@@ -124,9 +124,12 @@ void run_restyle(const Arguments& a) {
     frame.sheet = std::make_shared<CompiledSheet>(*scene.sheet, sheet_context_of(frame));
     frame.criteria.classes = file.lines.classes;
     if (const std::string missing = missing_for(*scene.sheet, frame.sheet->needs(), file.lines); !missing.empty()) {
-        throw InputError(a.input + ": the file lacks what the style sheet needs: " + missing +
-                         "; render again with this sheet" +
-                         (frame.sheet->needs().surface.empty() ? ", or with --find all," : "") + " and --save-lines");
+        const SheetNeeds& needs = frame.sheet->needs();
+        const std::string again = needs.variables.has(Variable::lit) ? "render with this sheet instead"
+                                  : find_all_keeps(*scene.sheet, needs, file.lines)
+                                      ? "render again with this sheet, or with --find all, and --save-lines"
+                                      : "render again with this sheet and --save-lines";
+        throw InputError(a.input + ": the file lacks what the style sheet needs: " + missing + "; " + again);
     }
     const PixelRect display{0, 0, frame.width, frame.height};
     Film film(display, frame.crop, layers_for(a, scene, output, file), frame.criteria.classes);

@@ -5,6 +5,18 @@
 #include <iterator>
 
 namespace burin {
+namespace {
+
+bool has_other_creases(const StyleSheet& style, const FoundLines& lines) {
+    const auto differs = [](double a, double b) { return std::abs(a - b) > 1e-9; };
+    return style.crease_angle_deg && (differs((*style.crease_angle_deg)[0], lines.crease_angle_deg[0]) ||
+                                      differs((*style.crease_angle_deg)[1], lines.crease_angle_deg[1]));
+}
+bool has_other_contours(const StyleSheet& style, const FoundLines& lines) {
+    return style.smooth_contours && *style.smooth_contours != lines.has_smooth_contours;
+}
+
+}  // namespace
 
 FoundLinesNeeds found_needs_of(const SheetNeeds& sheet) {
     constexpr Variable kOfNormals[] = {Variable::N,     Variable::N2,     Variable::facing, Variable::facing2,
@@ -38,12 +50,14 @@ std::string missing_for(const StyleSheet& style, const SheetNeeds& sheet, const 
     add(needs.surface.color && !lines.surface.color, "colours of vertices (Cv)");
     for (const std::string& name : needs.surface.attributes)
         add(!lines.surface.column_of_attribute(name), "the attribute '" + name + "'");
-    const auto differs = [](double a, double b) { return std::abs(a - b) > 1e-9; };
-    add(style.crease_angle_deg && (differs((*style.crease_angle_deg)[0], lines.crease_angle_deg[0]) ||
-                                   differs((*style.crease_angle_deg)[1], lines.crease_angle_deg[1])),
-        "creases by another crease_angle");
-    add(style.smooth_contours && *style.smooth_contours != lines.has_smooth_contours, "other contours");
+    add(has_other_creases(style, lines), "creases by another crease_angle");
+    add(has_other_contours(style, lines), "other contours");
     return missing;
+}
+
+bool find_all_keeps(const StyleSheet& style, const SheetNeeds& sheet, const FoundLines& lines) {
+    return sheet.surface.empty() && !sheet.variables.has(Variable::lit) && !has_other_creases(style, lines) &&
+           !has_other_contours(style, lines);
 }
 
 }  // namespace burin

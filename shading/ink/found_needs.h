@@ -14,4 +14,7 @@ FoundLinesNeeds found_needs_of(const SheetNeeds& sheet);
 /// normals"; empty: nothing. `needs`: of the sheet.
 std::string missing_for(const StyleSheet& sheet, const SheetNeeds& needs, const FoundLines& lines);
 
+/// Whether lines found for all sheets, as `lines` were but for that, would lack nothing.
+bool find_all_keeps(const StyleSheet& sheet, const SheetNeeds& needs, const FoundLines& lines);
+
 }  // namespace burin
