@@ -433,9 +433,7 @@ class Scene {
     template <typename Work>
     static int without_exceptions(const burin_line_samples& samples, const Work& work) noexcept {
         const auto failed = [&](std::string_view why) {
-            const std::size_t size = std::min<std::size_t>(why.size(), samples.message_size - 1);
-            std::copy_n(why.begin(), size, samples.message);
-            samples.message[size] = 0;
+            samples.message[why.copy(samples.message, samples.message_size - 1)] = 0;
             return 1;
         };
         try {
@@ -479,13 +477,12 @@ class Scene {
         v.ortho_height = view.ortho_height;
         v.frame = view.frame;
         Teller teller{options.progress, nullptr};
-        burin_options o = {};
-        o.size = sizeof o;
-        o.threads = options.threads;
-        o.memory_bytes = options.memory_bytes;
-        o.layers = options.layers.empty() ? nullptr : options.layers.c_str();
-        o.progress = options.progress ? &Teller::tell : nullptr;
-        o.user = &teller;
+        burin_options o = {.size = sizeof o,
+                           .threads = options.threads,
+                           .memory_bytes = options.memory_bytes,
+                           .layers = options.layers.empty() ? nullptr : options.layers.c_str(),
+                           .progress = options.progress ? &Teller::tell : nullptr,
+                           .user = &teller};
         auto* const result = work(get(), &v, &o);
         if (result == nullptr && teller.thrown) std::rethrow_exception(teller.thrown);
         return checked(result);
