@@ -267,6 +267,37 @@ TEST(FitPath, StraightLinesAndCornersStay) {
 }
 
 /// A polygon with few corners is no circle: its sides are farther from one than chords of a mesh are.
+TEST(FitPath, WhatTheToleranceMakesNothingOfIsADot) {
+    const std::vector<Points> lines = {{{20, 10}, {20.003, 10}, {20, 10}},
+                                       {{20, 10}, {20.003, 10}, {20.002, 10.003}, {20, 10}},
+                                       {{20, 10}, {20.01, 10}, {20, 10}},
+                                       {{20, 10}, {20, 10}},
+                                       {{20, 10}, {20, 10}, {20, 10}}};
+    for (const bool is_closed : {true, false}) {
+        for (const Points& line : lines) {
+            std::vector<PathStep> steps;
+            EXPECT_EQ(fit_path(line, is_closed, {}, steps), glm::dvec2(20, 10));
+            ASSERT_EQ(steps.size(), 1u) << line.size();
+            EXPECT_EQ(steps[0].to, glm::dvec2(20, 10));
+        }
+    }
+}
+
+TEST(FitPath, ThereAndBackAgainIsFinite) {
+    // Short parts that go leave their neighbours at one place.
+    const std::vector<Points> lines = {
+        {{20, 10}, {20.01, 10}, {20, 10}, {60, 10}, {60, 40}, {20, 10}},
+        {{60, 10}, {20, 10}, {20.01, 10}, {20, 10}, {60, 40}, {60, 10}},
+        {{20, 10}, {20.005, 10.01}, {30, 10}, {40, 20}, {20.005, 10.01}, {20, 10}},
+    };
+    for (const Points& line : lines) {
+        std::vector<PathStep> steps;
+        fit_path(line, true, {}, steps);
+        ASSERT_GE(steps.size(), 2u);
+        for (const PathStep& step : steps) EXPECT_TRUE(std::isfinite(step.to.x + step.a.x + step.b.x));
+    }
+}
+
 TEST(FitPath, CoarsePolygonsStay) {
     Points line;
     for (int i = 0; i <= 24; ++i)
