@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/interrupt.h"
 #include "output/paths/part_grid.h"
 
 namespace burin {
@@ -50,6 +51,7 @@ class Cleaner {
         for (const std::uint32_t i : order) clean(i, lengths[i]);
         // In the order in which they came.
         for (std::uint32_t i = 0; i < lines_.lines.size(); ++i) {
+            throw_if_interrupted();
             for (const Kept& kept : keeps_[i]) add(i, kept);
         }
         return std::move(result_);
@@ -119,6 +121,7 @@ class Cleaner {
             is_beside = false;
         };
         for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+            throw_if_interrupted();
             const glm::dvec2 way = points[i + 1] - points[i];
             const double part_length = glm::length(way);
             if (!(part_length > 0)) continue;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "base/error.h"
+#include "base/interrupt.h"
 #include "output/path_data.h"
 #include "output/paths/arc.h"
 #include "output/paths/chain_paths.h"
@@ -375,6 +377,23 @@ TEST(MergeStrokes, ARunOfOtherWidthsIsOneStroke) {
         EXPECT_EQ(merged.strokes.size(), is_one_width ? 4u : 2u);
         EXPECT_EQ(merged.points.size(), 8u);
     }
+}
+
+TEST(Paths, EachStepCanBeStopped) {
+    Lines lines;
+    lines.add({{10, 20}, {90, 20}});
+    lines.add({{90, 20}, {90, 60}});
+    InkedLines strokes;
+    add_stroke(strokes, {10, 50}, {90, 50}, 2, 1);
+    strokes.strokes[0].halo_px = 3;
+    const Projection projection;
+    const StopFlag flag(true);
+    const StopScope scope(flag);
+    EXPECT_THROW(with_runs_merged(strokes), Interrupted);
+    EXPECT_THROW(with_halos_cut(strokes, projection, kArea), Interrupted);
+    EXPECT_THROW(path_lines_of(strokes, VectorGrouping::line_class, kArea), Interrupted);
+    EXPECT_THROW(lines.chained(), Interrupted);
+    EXPECT_THROW(lines.cleaned(), Interrupted);
 }
 
 TEST(Outline, IsAroundEachPointOfTheStroke) {
