@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "base/interrupt.h"
 #include "output/path_data.h"
 #include "output/utf8.h"
 #include "output/vector_layers.h"
@@ -213,6 +214,7 @@ class DxfWriter {
     };
 
     void add_path(const VectorPath& path, const Layer& layer) {
+        throw_if_interrupted();
         const VectorStyle& style = drawing_.styles[path.style];
         if (style.opacity < 1 || style.blend != InkBlend::over) ++transparent_;
         if (style.is_outline()) ++outlines_;

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "base/interrupt.h"
 #include "output/path_data.h"
 #include "output/paths/arc.h"
 #include "output/pdf_file.h"
@@ -56,6 +57,7 @@ class PdfContent {
     void end_layer() { out_ += "EMC\n"; }
 
     void add(const VectorPath& path) {
+        throw_if_interrupted();
         const VectorStyle& style = drawing_.styles[path.style];
         set_look(style, path);
         out_ += place(path.start) + "m\n";

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/interrupt.h"
 #include "image/image_io.h"
 #include "output/path_data.h"
 #include "output/vector_layers.h"
@@ -155,6 +156,7 @@ class SvgWriter {
     }
 
     void add_path(const VectorPath& path, const VectorGroup& group, const Attributes& inherited) {
+        throw_if_interrupted();
         out_ += "<path";
         const std::span<const std::uint64_t> edges = drawing_.edges_of(path);
         if (options_.has_names)
@@ -201,6 +203,7 @@ class SvgWriter {
     Attributes common_of(std::span<const VectorPath> paths) const {
         Attributes common = attributes_of(paths.front());
         for (const VectorPath& path : paths.subspan(1)) {
+            throw_if_interrupted();
             const Attributes own = attributes_of(path);
             for (std::size_t a = 0; a < kAttributeCount; ++a) {
                 if (own[a] != common[a]) common[a].clear();

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/interrupt.h"
 #include "lines/end_links.h"
 
 namespace burin {
@@ -103,6 +104,7 @@ class Chainer {
         std::vector<Cell> places;
         std::vector<std::uint32_t> place_of(2 * lines_.lines.size(), kNone);
         for (const Cell& cell : cells) {
+            throw_if_interrupted();
             const glm::dvec2 p = place(cell.end);
             std::uint32_t found = kNone;
             double nearest = kTogetherPx;
@@ -127,6 +129,7 @@ class Chainer {
         for (std::size_t begin = 0, end = 0; begin < ends.size(); begin = end) {
             own.clear();
             for (; end < ends.size() && ends[end].first == ends[begin].first; ++end) own.push_back(ends[end].second);
+            throw_if_interrupted();
             link_place(own);
         }
     }
@@ -134,6 +137,7 @@ class Chainer {
     /// Strokes of one run that follow each other go on over small gaps, as runs do.
     void link_runs() {
         for (std::uint32_t end = 1; end + 1 < 2 * lines_.lines.size(); end += 2) {
+            throw_if_interrupted();
             if (line(end).chain != line(end + 1).chain || !links_.is_free(end) || !links_.is_free(end + 1)) continue;
             const double gap_px = glm::distance(place(end), place(end + 1));
             if (lines_.styles[line(end).kind.style].is_outline() || line(end).is_closed || line(end + 1).is_closed ||
@@ -192,6 +196,7 @@ class Chainer {
     bool is_spot(std::uint32_t a, std::uint32_t b) const { return a / 2 == b / 2 && length_of(a) < 4 * kTogetherPx; }
 
     void add_chain(std::vector<std::uint32_t>& ends, bool is_loop, PathLines& out) const {
+        throw_if_interrupted();
         // A pattern of dashes runs as its lines do.
         if (ends.front() % 2 == 1 && !lines_.styles[line(ends.front()).kind.style].dash_px.empty()) {
             std::reverse(ends.begin(), ends.end());
@@ -236,6 +241,7 @@ class Chainer {
     void put_in_order(PathLines& result) const {
         const auto is_above = [](glm::dvec2 a, glm::dvec2 b) { return std::pair(a.y, a.x) < std::pair(b.y, b.x); };
         for (const PathLine& l : result.lines) {
+            throw_if_interrupted();
             const VectorStyle& style = result.styles[l.kind.style];
             if (!style.dash_px.empty() || style.is_outline()) continue;
             const auto first = result.points.begin() + static_cast<std::ptrdiff_t>(l.first_point);

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <tuple>
 #include <utility>
 
+#include "base/interrupt.h"
 #include "output/paths/part_grid.h"
 
 namespace burin {
@@ -15,12 +17,31 @@ constexpr double kCrumbPx = 1.0;
 constexpr double kBesidePx = 0.25, kTwicePx = 1.5;
 /// The sine up to which two lines run the same way.
 constexpr double kParallelSine = 0.17;
+/// How much patterns of dashes may differ in their period, as a factor, and in the shares that parts have of it.
+constexpr double kMostStretch = 1.5, kOtherShare = 0.04;
 constexpr double kStepPx = 0.5, kMostReachPx = 2;
 
 double length_of(std::span<const glm::dvec2> points) {
     double length = 0;
     for (std::size_t i = 1; i < points.size(); ++i) length += glm::distance(points[i - 1], points[i]);
     return length;
+}
+
+/// Whether two patterns of dashes are one that was stretched by different factors, as it is to fit the lengths of
+/// lines.
+bool is_one_pattern(std::span<const float> a, std::span<const float> b) {
+    if (a.size() != b.size()) return false;
+    double a_period = 0, b_period = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        a_period += static_cast<double>(a[i]);
+        b_period += static_cast<double>(b[i]);
+    }
+    if (a_period > kMostStretch * b_period || b_period > kMostStretch * a_period) return false;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double off = static_cast<double>(a[i]) * b_period - static_cast<double>(b[i]) * a_period;
+        if (std::abs(off) > kOtherShare * a_period * b_period) return false;
+    }
+    return true;
 }
 
 /// A place on a line, between two of its points.
@@ -50,6 +71,7 @@ class Cleaner {
         for (const std::uint32_t i : order) clean(i, lengths[i]);
         // In the order in which they came.
         for (std::uint32_t i = 0; i < lines_.lines.size(); ++i) {
+            throw_if_interrupted();
             for (const Kept& kept : keeps_[i]) add(i, kept);
         }
         return std::move(result_);
@@ -63,15 +85,23 @@ class Cleaner {
 
     const VectorStyle& style_of(std::uint32_t line) const { return lines_.styles[lines_.lines[line].kind.style]; }
 
-    /// Whether the ink of one line can take the place of that of another one where both lie at one place.
-    bool covers(std::uint32_t upper, std::uint32_t lower) const {
+    /// Whether the ink of one line can take the place of that of another one, or of a crumb of it, where both lie at
+    /// one place.
+    bool covers(std::uint32_t upper, std::uint32_t lower, bool is_crumb) const {
         if (upper == lower) return false;
         const VectorStyle &a = style_of(upper), &b = style_of(lower);
         // A crumb may lie above longer lines.
         if (lines_.lines[lower].kind.order < lines_.lines[upper].kind.order && a.color != b.color) return false;
-        if (lines_.lines[upper].kind.style == lines_.lines[lower].kind.style && a.dash_px.empty())
-            return a.opacity == 1 || lines_.lines[upper].chain == lines_.lines[lower].chain;
-        return a.dash_px.empty() && a.blend == InkBlend::over && a.opacity == 1 && a.width_px >= b.width_px;
+        const bool is_one_style = lines_.lines[upper].kind.style == lines_.lines[lower].kind.style;
+        if (!a.dash_px.empty()) {
+            // Two patterns along each other, one of them moved, fill each other's gaps: one of them is what is meant.
+            // That of a crumb is squeezed to its length, and says nothing.
+            return is_one_style || (!b.dash_px.empty() && (is_crumb || is_one_pattern(a.dash_px, b.dash_px)) &&
+                                    a.color == b.color && a.blend == InkBlend::over && b.blend == InkBlend::over &&
+                                    a.opacity >= b.opacity && a.width_px >= b.width_px);
+        }
+        if (is_one_style) return a.opacity == 1 || lines_.lines[upper].chain == lines_.lines[lower].chain;
+        return a.blend == InkBlend::over && a.opacity == 1 && a.width_px >= b.width_px;
     }
 
     void clean(std::uint32_t number, double length) {
@@ -98,12 +128,15 @@ class Cleaner {
                 const double cross = way->x * part.way.y - way->y * part.way.x;
                 if (cross * cross >= kParallelSine * kParallelSine * part.square) return false;
             }
-            return part.square_distance(p) <= reach_px * reach_px && covers(part.line, number);
+            return part.square_distance(p) <= reach_px * reach_px && covers(part.line, number, way == nullptr);
         });
     }
     /// Whether the pens of others that were kept pass over all points.
     bool is_covered(std::uint32_t number, std::span<const glm::dvec2> points) const {
-        const double reach = std::clamp(0.5 * static_cast<double>(style_of(number).width_px), kBesidePx, kMostReachPx);
+        const VectorStyle& style = style_of(number);
+        double reach = std::clamp(0.5 * static_cast<double>(style.width_px), kBesidePx, kMostReachPx);
+        // What is shorter than half a pixel where a line with a pattern goes on is none of its dashes.
+        if (!style.dash_px.empty()) reach = std::max(reach, 0.5 * kCrumbPx);
         return std::all_of(points.begin(), points.end(),
                            [&](glm::dvec2 p) { return is_near(number, p, reach, nullptr); });
     }
@@ -119,6 +152,7 @@ class Cleaner {
             is_beside = false;
         };
         for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+            throw_if_interrupted();
             const glm::dvec2 way = points[i + 1] - points[i];
             const double part_length = glm::length(way);
             if (!(part_length > 0)) continue;

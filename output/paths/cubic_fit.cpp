@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/interrupt.h"
 #include "output/paths/simplify.h"
 
 namespace burin {
@@ -160,6 +161,7 @@ void fit_cubics(const SmoothPart& whole, std::vector<PathStep>& steps) {
         }
     };
     while (!parts.empty()) {
+        throw_if_interrupted();
         const SmoothPart part = parts.back();
         parts.pop_back();
         const std::span<const glm::dvec2> p = part.points;

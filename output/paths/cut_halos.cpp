@@ -5,11 +5,13 @@
 #include <limits>
 #include <utility>
 
+#include "base/interrupt.h"
 #include "output/paths/part_grid.h"
 
 namespace burin {
 namespace {
 
+constexpr std::size_t kInterruptItems = 32;
 constexpr double kHaloStepPx = 0.25, kExactPx = 1.0 / 128;
 
 /// A place on a stroke: between this point and the next one.
@@ -116,6 +118,7 @@ class HaloCutter {
         bool is_cut = was_erased;
         double at_px = 0, begin_px = 0;
         for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+            if (i % kInterruptItems == 0) throw_if_interrupted();
             const double length = glm::distance(points[i].place, points[i + 1].place);
             const int steps = std::max(1, static_cast<int>(std::ceil(std::min(length / step_px_, 1e6))));
             for (int k = 1; k <= steps; ++k) {

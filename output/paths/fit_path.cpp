@@ -32,10 +32,11 @@ void remove_stubs(bool is_closed, double tolerance_px, std::vector<glm::dvec2>& 
                                            glm::distance(points[i], points[i - 1]) < kStubPx);
         // The point before it is there, so that errors do not add up.
         if (is_short && kept.back() == points[i - 1] && can_go(points[i - 1], points[i], points[i + 1])) continue;
-        kept.push_back(points[i]);
+        // What is left of there and back again is one point.
+        if (kept.empty() || kept.back() != points[i]) kept.push_back(points[i]);
     }
     const std::size_t n = kept.size();
-    if (is_closed && n > 4 &&
+    if (is_closed && n > 4 && kept[n - 2] != kept[1] &&
         std::min(glm::distance(kept[0], kept[1]), glm::distance(kept[n - 2], kept[0])) < kStubPx &&
         can_go(kept[n - 2], kept[0], kept[1])) {
         kept.erase(kept.begin());
@@ -174,7 +175,7 @@ glm::dvec2 fit_path(std::span<const glm::dvec2> line, bool is_closed, const FitB
     simplify(line, kStraightShare * bounds.tolerance_px, points);
     remove_stubs(is_closed, bounds.tolerance_px, points);
     const glm::dvec2 start = points.front();
-    if (points.size() == 2 && points[0] == points[1]) {  // a dot
+    if (points.size() < 2) {  // a dot, and a line that the tolerance makes one
         PathStep step;
         step.to = start;
         steps.push_back(step);

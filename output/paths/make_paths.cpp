@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/interrupt.h"
 #include "base/stopwatch.h"
 #include "output/paths/chain_paths.h"
 #include "output/paths/clean_paths.h"
@@ -96,6 +97,7 @@ VectorDrawing vector_drawing_of(InkedLines inked, const FoundLines& found, const
     sort_to_groups(options.grouping, lines.lines);
     drawing.styles = lines.styles;
     for (const PathLine& line : lines.lines) {
+        throw_if_interrupted();
         VectorGroup group = group_of(options.grouping, line);
         if (drawing.groups.empty() || !is_one_group(drawing.groups.back(), group)) {
             group.first_path = drawing.paths.size();

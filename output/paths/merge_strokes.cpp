@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/interrupt.h"
+
 namespace burin {
 namespace {
 
@@ -52,6 +54,7 @@ InkedLines with_runs_merged(InkedLines lines) {
     std::vector<InkPoint> points;
     points.reserve(lines.points.size());
     for (std::size_t first = 0, last = 0; first < lines.strokes.size(); first = last + 1) {
+        throw_if_interrupted();
         last = first;
         while (last + 1 < lines.strokes.size() && goes_on(lines, last)) ++last;
         const bool is_merged = last > first && !has_one_width(lines, first, last);

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <tuple>
 
+#include "base/interrupt.h"
 #include "output/paths/clip_line.h"
 #include "output/paths/outline.h"
 #include "output/paths/simplify.h"
@@ -138,6 +139,7 @@ PathLines path_lines_of(const InkedLines& lines, VectorGrouping grouping, PixelR
     StyleNumbers styles(paths.styles);
     std::vector<glm::dvec2> places;
     for (std::size_t i = 0; i < lines.strokes.size(); ++i) {
+        throw_if_interrupted();
         const InkStroke& stroke = lines.strokes[i];
         const StrokeOrigin& origin = lines.origins[i];
         const std::span<const InkPoint> points = lines.points_of(stroke);

@@ -7,6 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/interrupt.h"
 #include "output/paths/end_tree.h"
 
 namespace burin {
@@ -69,6 +70,7 @@ class PathMerger {
     /// Adds what the paths become to another drawing.
     void add_to(VectorDrawing& merged) {
         for (std::size_t i = 0; i < paths_.size(); ++i) {
+            throw_if_interrupted();
             if (is_done_[i]) continue;
             is_done_[i] = true;
             begin(paths_[i]);
@@ -107,6 +109,7 @@ class PathMerger {
     /// Adds paths that begin or end where the path ends.
     void go_on() {
         while (true) {
+            throw_if_interrupted();
             const auto found = ends_.find(key_of(end()));
             if (found == ends_.end()) return;
             const auto next = std::find_if(found->second.begin(), found->second.end(), [&](std::size_t end) {
@@ -186,6 +189,7 @@ PenTravel sort_for_pen(VectorDrawing& drawing) {
             if (!can_turn(drawing, paths[i])) ends.remove(2 * i + 1);
         }
         for (std::size_t i = 0; i < paths.size(); ++i) {
+            throw_if_interrupted();
             const std::size_t nearest = ends.nearest(pen);
             VectorPath path = paths[nearest / 2];
             ends.remove(nearest / 2 * 2);

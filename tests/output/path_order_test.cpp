@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
+#include "base/interrupt.h"
 #include "output/paths/arc.h"
 #include "output/paths/path_order.h"
 #include "output/paths/view_sheet.h"
@@ -81,6 +83,16 @@ Places places_of(const VectorDrawing& drawing) {
         }
     }
     return places;
+}
+
+TEST(PathOrder, CanBeStopped) {
+    Random random(7);
+    VectorDrawing drawing = random_drawing(random, 20);
+    const StopFlag flag(true);
+    const StopScope scope(flag);
+    EXPECT_THROW(merge_paths(drawing), Interrupted);
+    EXPECT_THROW(sort_for_pen(drawing), Interrupted);
+    EXPECT_THROW(svg_of(drawing, {}), Interrupted);
 }
 
 TEST(PathOrder, SortingKeepsAllLinesAndSavesTravel) {

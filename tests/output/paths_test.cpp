@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "base/error.h"
+#include "base/interrupt.h"
 #include "output/path_data.h"
 #include "output/paths/arc.h"
 #include "output/paths/chain_paths.h"
@@ -182,6 +184,50 @@ TEST(CleanPaths, OnlyInkThatCoversTakesThePlaceOfOther) {
     }
 }
 
+/// Lines with a pattern are drawn once, too: those of one style, wherever theirs begins, and of one pattern and colour.
+TEST(CleanPaths, DashesAreDrawnOnce) {
+    for (int what = 0; what < 7; ++what) {
+        Lines lines;
+        lines.all().styles[0].dash_px = {8, 4};
+        if (what == 4) lines.all().styles[0].opacity = 0.6f;
+        lines.all().styles.push_back(lines.all().styles[0]);
+        VectorStyle& upper = lines.all().styles[1];
+        if (what == 2) upper.dash_px = {8, 5};
+        if (what == 3) upper.color = {1, 0, 0};
+        if (what == 5) upper.opacity = 0.6f;
+        if (what == 6) upper.dash_px = {8.2f, 4.1f};  // stretched to fit its line
+        lines.add({{10, 20}, {90, 20}}).kind.style = 1;
+        PathLine& lower = lines.add({{40, 20.1}, {70, 20.1}, {70, 60}});
+        lower.dash_phase_px = 5;
+        lower.object = 2;
+        if (what == 0) lower.kind.style = 1;
+        const PathLines cleaned = lines.cleaned();
+        ASSERT_EQ(cleaned.lines.size(), 2u);
+        double length = 0;
+        const Points rest = points_of(cleaned, 1);
+        for (std::size_t k = 1; k < rest.size(); ++k) length += glm::distance(rest[k - 1], rest[k]);
+        EXPECT_NEAR(length, what < 2 || what == 4 || what == 6 ? 39.9 : 69.9, 0.5) << what;
+        // Its pattern is where it was.
+        EXPECT_NEAR(cleaned.lines[1].dash_phase_px, std::fmod(5 + 69.9 - length, 12), 1e-3) << what;
+    }
+}
+
+TEST(CleanPaths, CrumbsOfDashedLinesGo) {
+    for (const bool is_dashed : {false, true}) {
+        Lines lines;
+        lines.all().styles[0].width_px = 0.4f;
+        if (is_dashed) lines.all().styles[0].dash_px = {8, 4};
+        lines.add({{10, 20}, {90, 20}});
+        lines.add({{90, 20}, {90.4, 20}});  // goes on
+        lines.all().styles.push_back(lines.all().styles[0]);
+        if (is_dashed) lines.all().styles[1].dash_px = {0, 0.0001f};
+        lines.add({{50, 20}, {50.00001, 20}}).kind.style = 1;
+        lines.add({{30, 20}, {30.00001, 20}});  // nothing
+        lines.add({{30, 22}, {30.00001, 22}});  // a dot by itself
+        EXPECT_EQ(lines.cleaned().lines.size(), is_dashed ? 2u : 3u);
+    }
+}
+
 double distance_to(glm::dvec2 p, const Points& line) {
     double least = 1e9;
     for (std::size_t i = 0; i + 1 < line.size(); ++i)
@@ -267,6 +313,37 @@ TEST(FitPath, StraightLinesAndCornersStay) {
 }
 
 /// A polygon with few corners is no circle: its sides are farther from one than chords of a mesh are.
+TEST(FitPath, WhatTheToleranceMakesNothingOfIsADot) {
+    const std::vector<Points> lines = {{{20, 10}, {20.003, 10}, {20, 10}},
+                                       {{20, 10}, {20.003, 10}, {20.002, 10.003}, {20, 10}},
+                                       {{20, 10}, {20.01, 10}, {20, 10}},
+                                       {{20, 10}, {20, 10}},
+                                       {{20, 10}, {20, 10}, {20, 10}}};
+    for (const bool is_closed : {true, false}) {
+        for (const Points& line : lines) {
+            std::vector<PathStep> steps;
+            EXPECT_EQ(fit_path(line, is_closed, {}, steps), glm::dvec2(20, 10));
+            ASSERT_EQ(steps.size(), 1u) << line.size();
+            EXPECT_EQ(steps[0].to, glm::dvec2(20, 10));
+        }
+    }
+}
+
+TEST(FitPath, ThereAndBackAgainIsFinite) {
+    // Short parts that go leave their neighbours at one place.
+    const std::vector<Points> lines = {
+        {{20, 10}, {20.01, 10}, {20, 10}, {60, 10}, {60, 40}, {20, 10}},
+        {{60, 10}, {20, 10}, {20.01, 10}, {20, 10}, {60, 40}, {60, 10}},
+        {{20, 10}, {20.005, 10.01}, {30, 10}, {40, 20}, {20.005, 10.01}, {20, 10}},
+    };
+    for (const Points& line : lines) {
+        std::vector<PathStep> steps;
+        fit_path(line, true, {}, steps);
+        ASSERT_GE(steps.size(), 2u);
+        for (const PathStep& step : steps) EXPECT_TRUE(std::isfinite(step.to.x + step.a.x + step.b.x));
+    }
+}
+
 TEST(FitPath, CoarsePolygonsStay) {
     Points line;
     for (int i = 0; i <= 24; ++i)
@@ -344,6 +421,23 @@ TEST(MergeStrokes, ARunOfOtherWidthsIsOneStroke) {
         EXPECT_EQ(merged.strokes.size(), is_one_width ? 4u : 2u);
         EXPECT_EQ(merged.points.size(), 8u);
     }
+}
+
+TEST(Paths, EachStepCanBeStopped) {
+    Lines lines;
+    lines.add({{10, 20}, {90, 20}});
+    lines.add({{90, 20}, {90, 60}});
+    InkedLines strokes;
+    add_stroke(strokes, {10, 50}, {90, 50}, 2, 1);
+    strokes.strokes[0].halo_px = 3;
+    const Projection projection;
+    const StopFlag flag(true);
+    const StopScope scope(flag);
+    EXPECT_THROW(with_runs_merged(strokes), Interrupted);
+    EXPECT_THROW(with_halos_cut(strokes, projection, kArea), Interrupted);
+    EXPECT_THROW(path_lines_of(strokes, VectorGrouping::line_class, kArea), Interrupted);
+    EXPECT_THROW(lines.chained(), Interrupted);
+    EXPECT_THROW(lines.cleaned(), Interrupted);
 }
 
 TEST(Outline, IsAroundEachPointOfTheStroke) {
