@@ -176,6 +176,7 @@ class InkTile {
     void sort_records();
     void erase_behind_halos();
     void erase_behind(const InkSegmentRef& ref, const InkSegment& segment);
+    StrokeMask halo_mask(const InkSegment& segment, double halo_px, int x, int y);
 
     const InkedLines& lines_;
     const InkPlan& plan_;
