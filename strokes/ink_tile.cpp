@@ -142,6 +142,7 @@ void InkTile::draw_layer(std::span<const InkSegmentRef> segments) {
     const std::uint32_t stroke = segments.front().stroke;
     layers_.push_back({&plan_.looks[stroke], stroke, &canvas});
     for (const InkSegmentRef& ref : segments) {
+        throw_if_interrupted();
         const bool is_cut = is_clipped(ref);
         if (!is_cut && lines_.strokes[ref.stroke].caps == StrokeCaps::round) {  // mostly
             canvas.draw(lines_.points[ref.point].place, lines_.points[ref.point + 1].place,
@@ -193,6 +194,7 @@ void InkTile::draw_parts(bool is_thin, bool body_only) {
     std::size_t next_part = 0;
     for (const Placed& placed : placed_) {
         if (body_only && placed.segment.is_constant()) continue;
+        throw_if_interrupted();
         const bool is_cut = is_clipped(placed.ref);
         for (const InkSegment::Part& part : placed.segment.parts()) {
             if (part.is_thin != is_thin) continue;

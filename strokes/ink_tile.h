@@ -163,6 +163,11 @@ class InkTile {
         float width_px;
         bool operator==(const Hiding&) const = default;
     };
+    /// A record of which samples are left for halos to erase, and how near they are.
+    struct Behind {
+        float nearness;
+        std::uint32_t record;
+    };
     std::size_t index(int column, int row) const { return static_cast<std::size_t>(row * stride_ + column); }
     InkSegment segment_of(const InkSegmentRef& ref) const;
     void cut_at_ends(const InkSegmentRef& ref, InkSegment& segment) const;
@@ -176,6 +181,7 @@ class InkTile {
     void sort_records();
     void erase_behind_halos();
     void erase_behind(const InkSegmentRef& ref, const InkSegment& segment);
+    StrokeMask halo_mask(const InkSegment& segment, double halo_px, int x, int y);
 
     const InkedLines& lines_;
     const InkPlan& plan_;
@@ -199,6 +205,8 @@ class InkTile {
     std::vector<std::uint32_t> sorted_;        // their numbers, by pixel
     std::vector<std::uint32_t> first_sorted_;  // of each pixel, and behind them the end
     std::vector<std::uint32_t> next_;
+    std::vector<Behind> behind_;             // by pixel as sorted_, while halos erase; the farthest ones first
+    std::vector<std::uint32_t> behind_end_;  // of each pixel's
 
     PieceMasks one_;
     StrokeCanvas piece_;  // of one piece that is cut

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/interrupt.h"
+
 namespace burin {
 namespace {
 
@@ -320,6 +322,7 @@ bool StrokeClipper::pass_boundaries(const ClipPiece& piece, const Frame& frame, 
     bool is_behind = is_inside;  // before that, there is nothing to come out from
     std::size_t passed = 0;
     for (int ring = 0;; ++ring) {
+        throw_if_interrupted();
         if (ring > 0 || !cells_.is_one()) find_shadows(ring, piece, frame, radius_px, side);
         // Shadows that are not found yet are not nearer than this. A way may begin a little before the end of the
         // piece.

@@ -138,10 +138,11 @@ TypedValue fbm(Builder& b, const FunctionCall& call) {
     return b.compute(O::maximum, {b.compute(O::minimum, {sum, b.constant(1)}), b.constant(-1)});
 }
 
-/// Never NaN: where the surface is flat, or bends towards the eye, the distance is very large.
+/// Where the surface is flat, or bends towards the eye, the distance is very large, not NaN.
 TypedValue isophote(Builder& b, const FunctionCall& call) {
-    const TypedValue& e = call.arguments[0];
-    b.require_number(e, "what isophote() takes");
+    b.require_number(call.arguments[0], "what isophote() takes");
+    const TypedValue e =
+        b.compute(O::minimum, {b.compute(O::maximum, {call.arguments[0], b.constant(0)}), b.constant(1)});
     const TypedValue bend = b.compute(O::maximum, {b.variable("kr", call.offset), b.constant(0)});
     const TypedValue scale = b.compute(O::multiply, {bend, b.variable("px_size", call.offset)});
     const TypedValue rest = b.compute(O::subtract, {b.constant(1), b.compute(O::multiply, {e, e})});

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "base/parallel.h"
 #include "shading/ink/sampled_strokes.h"
@@ -321,8 +322,30 @@ void add_ink_along(std::span<const Inked> parts, std::span<const std::uint32_t> 
 
 void add_notes_on_numbers(const CompiledSheet& sheet, std::span<const Chunk> chunks, std::span<const Inked> parts,
                           std::vector<std::string>& notes) {
-    constexpr std::array<const char*, NotNumbersOfStyle::kCount> kNames = {"width", "opacity", "offset", "color",
-                                                                           "strength"};
+    constexpr std::array<std::string_view, NotNumbersOfStyle::kCount> kNames = {"width",
+                                                                                "opacity",
+                                                                                "offset",
+                                                                                "color",
+                                                                                "strength",
+                                                                                "taper.start",
+                                                                                "taper.end",
+                                                                                "dash_phase",
+                                                                                "overshoot",
+                                                                                "wobble.amplitude",
+                                                                                "wobble.wavelength",
+                                                                                "halo",
+                                                                                "halo_depth",
+                                                                                "halo_depth",
+                                                                                "min_length",
+                                                                                "min_length",
+                                                                                "dash",
+                                                                                "dash",
+                                                                                "dash",
+                                                                                "dash",
+                                                                                "dash",
+                                                                                "dash",
+                                                                                "dash",
+                                                                                "dash"};
     for (std::size_t style = 0; style < sheet.styles().size(); ++style) {
         NotNumbersOfStyle sum;
         for (std::size_t i = 0; i < chunks.size(); ++i) {
@@ -334,12 +357,32 @@ void add_notes_on_numbers(const CompiledSheet& sheet, std::span<const Chunk> chu
                 }
             }
         }
+        std::string_view noted;
         for (std::size_t k = 0; k < kNames.size(); ++k) {
-            if (sum.counts[k] == 0) continue;
-            notes.push_back("style " + sheet.styles()[style].name + ": " + kNames[k] + " is not a number at " +
-                            std::to_string(sum.counts[k]) + " samples, first at pixel " +
+            if (sum.counts[k] == 0 || kNames[k] == noted) continue;  // a list of lengths is one value
+            noted = kNames[k];
+            notes.push_back("style " + sheet.styles()[style].name + ": " + std::string(noted) + " is not a number at " +
+                            std::to_string(sum.counts[k]) +
+                            (k < NotNumbersOfStyle::kFirstOfChain ? " samples" : " lines") + ", first at pixel " +
                             std::to_string(static_cast<int>(std::floor(sum.places[k].x))) + "," +
                             std::to_string(static_cast<int>(std::floor(sum.places[k].y))));
+        }
+    }
+}
+
+/// Notes sets that draw nothing since none of the scene's names fits their patterns.
+void add_notes_on_names(const CompiledSheet& sheet, std::vector<std::string>& notes) {
+    const auto has_none = [](const std::vector<bool>& taken) {
+        return std::find(taken.begin(), taken.end(), true) == taken.end();
+    };
+    for (const CompiledSet& set : sheet.sets()) {
+        if (!set.is_enabled) continue;
+        if (set.has_object_globs && has_none(set.objects)) {
+            notes.push_back("set " + set.name +
+                            ": no object fits its objects; parts of a file are called NAME/PART (burin info lists "
+                            "them)");
+        } else if (set.has_material_globs && has_none(set.materials)) {
+            notes.push_back("set " + set.name + ": no material fits its materials (burin info lists them)");
         }
     }
 }
@@ -379,6 +422,7 @@ InkedLines ink_lines(const FoundLines& found, const CompiledSheet& sheet, int th
         inked.sets.push_back(set.name);
     }
     add_ink_along(parts, boundaries, inked);
+    add_notes_on_names(sheet, notes);
     add_notes_on_numbers(sheet, chunks, parts, notes);
     return inked;
 }

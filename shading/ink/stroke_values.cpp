@@ -109,6 +109,7 @@ std::vector<ChainValues> StrokeValues::chain_values(std::span<const LineStretch>
     std::vector<LineSample> samples;
     for (const LineStretch& s : stretches) samples.push_back({s.run, static_cast<std::uint32_t>(s.first), 0});
     run(style_.chain, samples, kChainValueCount);
+    for (std::size_t k = 0; k < kChainValueCount; ++k) note(NotNumbersOfStyle::kFirstOfChain + k, counts_[k], samples);
     std::vector<ChainValues> values(stretches.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
         for (std::size_t k = 0; k < kChainValueCount; ++k) values[i][k] = results_[k][i];

@@ -31,9 +31,10 @@ inline float value_of(const ChainValues& values, ChainValue v) { return values[s
 
 /// How often a value was not a number, and where first.
 struct NotNumbersOfStyle {
-    static constexpr std::size_t kStrength = kInkValueCount;  ///< of line tests, behind the values
-    static constexpr std::size_t kCount = kStrength + 1;
-    std::array<std::size_t, kCount> counts{};  ///< by InkValue
+    static constexpr std::size_t kStrength = kInkValueCount;     ///< of line tests, behind the values
+    static constexpr std::size_t kFirstOfChain = kStrength + 1;  ///< then by ChainValue, for each stretch
+    static constexpr std::size_t kCount = kFirstOfChain + kChainValueCount;
+    std::array<std::size_t, kCount> counts{};  ///< by InkValue, for each sample
     std::array<glm::dvec2, kCount> places{};   ///< in pixels
 };
 

@@ -478,5 +478,38 @@ priority = )") + (is_thin_above ? "1" : "-1") +
     }
 }
 
+std::vector<std::string> notes_on(const ShadedScene& scene) {
+    std::vector<std::string> notes;
+    scene.inked(scene.whole(), 1, &notes);
+    return notes;
+}
+
+TEST(StyledValues, NotesSayWhichValuesOfALineAreNotNumbers) {
+    const std::string style =
+        "width = 2\ndash = [\"=0/0\", 4, \"=0/0\"]\ndash_phase = \"=0/0\"\nmin_length = \"=0/0\"\n"
+        "taper = { start = 3, end = \"=0/0\" }\nwobble = { amplitude = \"=0/0\", wavelength = 9 }\n"
+        "overshoot = \"=0/0\"\nhalo = \"=0/0\"\nhalo_depth = [\"=0/0\", 9]\n";
+    std::vector<std::string> names;
+    for (const std::string& note : notes_on(level(20, 220, 50, style))) {
+        EXPECT_NE(note.find(" is not a number at 1 lines, first at pixel "), std::string::npos) << note;
+        names.push_back(note.substr(0, note.find(" is not")));
+    }
+    EXPECT_EQ(names, (std::vector<std::string>{"style ink: taper.end", "style ink: dash_phase", "style ink: overshoot",
+                                               "style ink: wobble.amplitude", "style ink: halo",
+                                               "style ink: halo_depth", "style ink: min_length", "style ink: dash"}));
+    EXPECT_TRUE(notes_on(level(20, 220, 50, "width = 2\ndash = [4, 4]\nmin_length = 3\n")).empty());
+}
+
+TEST(StyledValues, NotesNameSetsWhosePatternsFitNothing) {
+    const auto notes_of = [](const std::string& set) { return notes_on(level(20, 220, 50, "width = 2", set)); };
+    EXPECT_EQ(notes_of("objects = [\"nothing*\", \"none\"]\n"),
+              std::vector<std::string>{"set all: no object fits its objects; parts of a file are called NAME/PART "
+                                       "(burin info lists them)"});
+    EXPECT_EQ(notes_of("materials = [\"nothing\"]\n"),
+              std::vector<std::string>{"set all: no material fits its materials (burin info lists them)"});
+    EXPECT_TRUE(notes_of("objects = [\"*\"]\nmaterials = [\"*\"]\n").empty());
+    EXPECT_TRUE(notes_of("objects = [\"nothing\"]\nenabled = false\n").empty());
+}
+
 }  // namespace
 }  // namespace burin::styled_values_test

@@ -202,6 +202,8 @@ TEST(ExpressionGrammar, Isophotes) {
     EXPECT_EQ(value_of("isophote(0)"), 0);  // flat: 0 / 0 is not NaN
     EXPECT_GT(value_of("isophote(0.3)", {{"kr", -1.0f}, {"px_size", 1.0f}}), 1e30);
     EXPECT_NEAR(value_of("isophote(2)", ball), 100, 1e-4);  // no such angle: as 1
+    EXPECT_EQ(value_of("isophote(-0.3)", ball), 0);         // nor this: as 0
+    EXPECT_EQ(value_of("isophote(-2)", ball), 0);
 }
 
 TEST(ExpressionGrammar, Colors) {
