@@ -21,7 +21,7 @@ namespace {
 constexpr int kMostPixels = 4096;  // of a picture that is drawn
 
 /// Plain lines, and lines that all kinds of variables decide: the second needs more than many files have.
-constexpr const char* kSheets[] = {R"(
+constexpr const char* kSheets[] = {R"toml(
 [[set]]
 name = "all"
 classes = ["silhouette", "border", "crease", "intersection", "object", "material", "mark", "polygon"]
@@ -30,8 +30,8 @@ style = "ink"
 width = "=1 + 0.1 * depth"
 dash = [3, 2]
 halo = 2
-)",
-                                   R"(
+)toml",
+                                   R"toml(
 [[set]]
 name = "all"
 classes = ["border", "silhouette"]
@@ -45,35 +45,35 @@ taper = { start = 4, end = 4 }
 overshoot = 2
 copies = 2
 wobble = { amplitude = 1, wavelength = 8 }
-)"};
+)toml"};
 
 void draw(const burin::FoundLines& lines, const char* text) {
     burin::Scene scene;
-scene.picture.width = lines.width_px;
-scene.picture.height = lines.height_px;
-for (const burin::ObjectOfLines& object : lines.objects) {
-    burin::SceneObject named;
-    named.name = object.name;
-    scene.objects.push_back(named);
-}
-for (std::size_t i = 0; i < lines.materials.size(); ++i)
-    scene.materials.push_back({lines.materials[i], lines.material_colors[i]});
-scene.sheet = burin::read_sheet_text(text, "s.toml");
-scene.lines.style.filter = lines.filter;
-burin::Frame frame;
-frame.scene = &scene;
-frame.width = lines.width_px;
-frame.height = lines.height_px;
-frame.crop = {0, 0, frame.width, frame.height};
-frame.surfaces.projection = lines.projection;
-frame.sheet = std::make_shared<burin::CompiledSheet>(*scene.sheet, burin::sheet_context_of(frame));
-frame.criteria.classes = lines.classes;
-if (!burin::missing_for(*scene.sheet, frame.sheet->needs(), lines).empty()) return;
-burin::LayerSet layers;
-burin::Film film(frame.crop, frame.crop, layers, lines.classes);
-for (int y = 0; y < frame.height; ++y) film.put_background(0, frame.width, y);
-std::vector<std::string> notes;
-burin::draw_found_lines(frame, lines, 1, film, notes);
+    scene.picture.width = lines.width_px;
+    scene.picture.height = lines.height_px;
+    for (const burin::ObjectOfLines& object : lines.objects) {
+        burin::SceneObject named;
+        named.name = object.name;
+        scene.objects.push_back(named);
+    }
+    for (std::size_t i = 0; i < lines.materials.size(); ++i)
+        scene.materials.push_back({lines.materials[i], lines.material_colors[i]});
+    scene.sheet = burin::read_sheet_text(text, "s.toml");
+    scene.lines.style.filter = lines.filter;
+    burin::Frame frame;
+    frame.scene = &scene;
+    frame.width = lines.width_px;
+    frame.height = lines.height_px;
+    frame.crop = {0, 0, frame.width, frame.height};
+    frame.surfaces.projection = lines.projection;
+    frame.sheet = std::make_shared<burin::CompiledSheet>(*scene.sheet, burin::sheet_context_of(frame));
+    frame.criteria.classes = lines.classes;
+    if (!burin::missing_for(*scene.sheet, frame.sheet->needs(), lines).empty()) return;
+    burin::LayerSet layers;
+    burin::Film film(frame.crop, frame.crop, layers, lines.classes);
+    for (int y = 0; y < frame.height; ++y) film.put_background(0, frame.width, y);
+    std::vector<std::string> notes;
+    burin::draw_found_lines(frame, lines, 1, film, notes);
 }
 
 }  // namespace
