@@ -370,23 +370,6 @@ void add_notes_on_numbers(const CompiledSheet& sheet, std::span<const Chunk> chu
     }
 }
 
-/// Notes sets that draw nothing since none of the scene's names fits their patterns.
-void add_notes_on_names(const CompiledSheet& sheet, std::vector<std::string>& notes) {
-    const auto has_none = [](const std::vector<bool>& taken) {
-        return std::find(taken.begin(), taken.end(), true) == taken.end();
-    };
-    for (const CompiledSet& set : sheet.sets()) {
-        if (!set.is_enabled) continue;
-        if (set.has_object_globs && has_none(set.objects)) {
-            notes.push_back("set " + set.name +
-                            ": no object fits its objects; parts of a file are called NAME/PART (burin info lists "
-                            "them)");
-        } else if (set.has_material_globs && has_none(set.materials)) {
-            notes.push_back("set " + set.name + ": no material fits its materials (burin info lists them)");
-        }
-    }
-}
-
 }  // namespace
 
 InkedLines ink_lines(const FoundLines& found, const CompiledSheet& sheet, int threads, std::vector<std::string>& notes,
@@ -422,7 +405,7 @@ InkedLines ink_lines(const FoundLines& found, const CompiledSheet& sheet, int th
         inked.sets.push_back(set.name);
     }
     add_ink_along(parts, boundaries, inked);
-    add_notes_on_names(sheet, notes);
+    for (std::string& note : sheet.notes_on_names()) notes.push_back(std::move(note));
     add_notes_on_numbers(sheet, chunks, parts, notes);
     return inked;
 }

@@ -112,4 +112,22 @@ CompiledSheet::CompiledSheet(const StyleSheet& sheet, const SheetContext& contex
     if (needs_.variables.has_tier(VariableTier::chains)) needs_.chains = true;
 }
 
+std::vector<std::string> CompiledSheet::notes_on_names() const {
+    std::vector<std::string> notes;
+    const auto has_none = [](const std::vector<bool>& taken) {
+        return std::find(taken.begin(), taken.end(), true) == taken.end();
+    };
+    for (const CompiledSet& set : sets_) {
+        if (!set.is_enabled) continue;
+        if (set.has_object_globs && has_none(set.objects)) {
+            notes.push_back("set " + set.name +
+                            ": no object fits its objects; parts of a file are called NAME/PART (burin info lists "
+                            "them)");
+        } else if (set.has_material_globs && has_none(set.materials)) {
+            notes.push_back("set " + set.name + ": no material fits its materials (burin info lists them)");
+        }
+    }
+    return notes;
+}
+
 }  // namespace burin

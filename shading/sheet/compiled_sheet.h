@@ -149,6 +149,9 @@ class CompiledSheet {
     /// What match() reads.
     const VariableSet& select_variables() const { return select_variables_; }
 
+    /// A note for each set that draws nothing since none of the picture's names fits its patterns.
+    std::vector<std::string> notes_on_names() const;
+
     /// The class that a piece is drawn as: of its classes, the first one that any enabled set asks for.
     std::optional<LineClass> class_of(LineClassSet classes) const { return (classes & needs_.classes).first(); }
     /// Finds the sets that draw each piece: the first one that takes it, and those before it with `also` that do.

@@ -486,7 +486,7 @@ std::vector<std::string> notes_on(const ShadedScene& scene) {
 
 TEST(StyledValues, NotesSayWhichValuesOfALineAreNotNumbers) {
     const std::string style =
-        "width = 2\ndash = [\"=0/0\", 4, \"=0/0\"]\ndash_phase = \"=0/0\"\nmin_length = \"=0/0\"\n"
+        "width = 2\ndash = [\"=0/0\", 4, \"=0/0\", 4]\ndash_phase = \"=0/0\"\nmin_length = \"=0/0\"\n"
         "taper = { start = 3, end = \"=0/0\" }\nwobble = { amplitude = \"=0/0\", wavelength = 9 }\n"
         "overshoot = \"=0/0\"\nhalo = \"=0/0\"\nhalo_depth = [\"=0/0\", 9]\n";
     std::vector<std::string> names;

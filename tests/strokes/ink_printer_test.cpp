@@ -240,5 +240,40 @@ TEST(InkPrinter, HalosEraseWhatIsFartherAsWideAsTheyAre) {
     }
 }
 
+/// Each of several strokes that lie over each other loses as much as its own distance says, in whatever order they
+/// come.
+TEST(InkPrinter, HalosEraseEachStrokeBehindByItsOwnDistance) {
+    struct Bar {
+        std::uint32_t set;
+        LineClass drawn_as;
+        double farther_px;
+    };
+    std::vector<Bar> bars{{1, LineClass::border, 200}, {2, LineClass::crease, 26}, {3, LineClass::object, 1}};
+    for (int turn = 0; turn < 3; ++turn) {
+        std::rotate(bars.begin(), bars.begin() + 1, bars.end());
+        InkPicture picture(96, 96);
+        const double focal_px = picture.projection_focal_px();
+        const auto add_bar = [&](glm::dvec2 along, float width_px, double farther_px) -> InkStroke& {
+            const glm::dvec2 middle(48, 48);
+            InkPoint a = InkPicture::point(middle - 30.0 * along, width_px), b = a;
+            b.place = middle + 30.0 * along;
+            a.nearness = b.nearness = static_cast<float>(-(100 + farther_px / focal_px));
+            return picture.add({a, b});
+        };
+        for (const Bar& bar : bars) {
+            InkStroke& stroke = add_bar({0, 1}, 6, bar.farther_px);
+            stroke.order.set = bar.set;
+            stroke.order.drawn_as = bar.drawn_as;
+        }
+        InkStroke& front = add_bar({1, 0}, 4, 0);
+        front.halo_px = 8;
+        front.halo_depth_px = {2, 50};
+        const Image image = picture.draw();
+        EXPECT_NEAR(60 * 6 + kPi * 9 - sum(image, "coverage.border"), 6 * (4 + 2 * 8), 0.25) << turn;
+        EXPECT_NEAR(sum(image, "coverage.crease"), 6 * 2 * (8 - 4), 0.25) << turn;  // where the first one is erased
+        EXPECT_NEAR(sum(image, "coverage.object"), 6 * 2 * 4, 0.25) << turn;        // where both are
+    }
+}
+
 }  // namespace
 }  // namespace burin::ink_printer_test
