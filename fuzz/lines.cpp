@@ -58,7 +58,7 @@ void draw(const burin::FoundLines& lines, const char* text) {
     }
     for (std::size_t i = 0; i < lines.materials.size(); ++i)
         scene.materials.push_back({lines.materials[i], lines.material_colors[i]});
-    scene.sheet = burin::read_sheet_text(text, "s.toml");
+    scene.sheet = std::make_shared<burin::StyleSheet>(burin::read_sheet_text(text, "s.toml"));
     scene.lines.style.filter = lines.filter;
     burin::Frame frame;
     frame.scene = &scene;
