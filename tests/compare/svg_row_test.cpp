@@ -15,6 +15,8 @@
 namespace burin::test {
 namespace {
 
+constexpr const char* kInstall = "rsvg-convert is missing; scripts/install-dependencies installs it";
+
 namespace fs = std::filesystem;
 
 /// A variable of the environment with another value as long as this object exists.
@@ -47,7 +49,7 @@ ProgramResult compare_in(const TemporaryFolder& folder, std::vector<std::string>
 }
 
 TEST(SvgRow, IsAsNearTheTruthAsPathsCanBe) {
-    if (find_svg_rasterizer().empty()) GTEST_SKIP() << "rsvg-convert is not installed";
+    ASSERT_FALSE(find_svg_rasterizer().empty()) << kInstall;
     const TemporaryFolder folder;
     folder.write("cube.obj", kCubeObj);
     fs::create_directory(folder.file("scratch"));
@@ -105,7 +107,7 @@ VectorDrawing long_stroke(double y, glm::vec3 color) {
 // The picture is wider than what is drawn at once.
 TEST(RasterizeSvg, GivesAreasAsCoverageAndLinearColours) {
     const std::string rasterizer = find_svg_rasterizer();
-    if (rasterizer.empty()) GTEST_SKIP() << "rsvg-convert is not installed";
+    ASSERT_FALSE(rasterizer.empty()) << kInstall;
     const glm::vec3 color{0.5f, 0.0f, 1.0f};
     const std::vector<glm::vec4> pixels = rasterize_svg(long_stroke(4.25, color), rasterizer);
     ASSERT_EQ(pixels.size(), 1200u * 8u);
@@ -123,7 +125,7 @@ TEST(RasterizeSvg, GivesAreasAsCoverageAndLinearColours) {
 
 TEST(RasterizeSvg, ACropIsThatPartOfThePicture) {
     const std::string rasterizer = find_svg_rasterizer();
-    if (rasterizer.empty()) GTEST_SKIP() << "rsvg-convert is not installed";
+    ASSERT_FALSE(rasterizer.empty()) << kInstall;
     VectorDrawing drawing = long_stroke(4.25, glm::vec3(0.0f));
     const std::vector<glm::vec4> whole = rasterize_svg(drawing, rasterizer);
     drawing.crop = {1005, 2, 1100, 7};
@@ -137,7 +139,7 @@ TEST(RasterizeSvg, ACropIsThatPartOfThePicture) {
 // Such pictures of rsvg-convert have no alpha channel.
 TEST(RasterizeSvg, InkCanCoverAllOfThePicture) {
     const std::string rasterizer = find_svg_rasterizer();
-    if (rasterizer.empty()) GTEST_SKIP() << "rsvg-convert is not installed";
+    ASSERT_FALSE(rasterizer.empty()) << kInstall;
     VectorDrawing drawing = long_stroke(4, glm::vec3(0.5f, 0.0f, 1.0f));
     drawing.styles[0].opacity = 1;
     drawing.styles[0].width_px = 40;

@@ -219,7 +219,7 @@ bool has_program(const char* name) {
 }
 
 TEST(Pdf, QpdfFindsNoFault) {
-    if (!has_program("qpdf")) GTEST_SKIP() << "qpdf is not installed";
+    ASSERT_TRUE(has_program("qpdf")) << "scripts/install-dependencies installs it";
     const TemporaryFolder folder;
     Drawing named = several_paths(), large = several_paths();
     named.drawing.grouping = VectorGrouping::object;
@@ -260,7 +260,7 @@ class Printed {
 };
 
 TEST(Pdf, PopplerDrawsItWhereItIs) {
-    if (!has_program("pdftoppm")) GTEST_SKIP() << "poppler-utils is not installed";
+    ASSERT_TRUE(has_program("pdftoppm")) << "scripts/install-dependencies installs it";
     const TemporaryFolder folder;
     const Printed printed(folder, pdf(several_paths().drawing), static_cast<int>(kDpi));
     EXPECT_NEAR(printed.width, 500, 1);
@@ -404,8 +404,8 @@ TEST(Dxf, AnEmptyDrawingIsAFile) {
 }
 
 TEST(Dxf, EzdxfReadsIt) {
-    if (std::system("/usr/bin/python3 -c 'import ezdxf' >/dev/null 2>&1") != 0)
-        GTEST_SKIP() << "ezdxf is not installed";
+    ASSERT_EQ(std::system("/usr/bin/python3 -c 'import ezdxf' >/dev/null 2>&1"), 0)
+        << "scripts/install-dependencies installs python3-ezdxf";
     const TemporaryFolder folder;
     std::ofstream(folder.file("a.dxf"), std::ios::binary) << dxf(several_paths().drawing);
     const std::string script =
