@@ -58,8 +58,8 @@ void check_headers(const Band& first, const Band& band) {
         throw InputError(band.path() + ": has other parts than " + first.path());
     for (std::size_t p = 0; p < a.parts.size(); ++p) {
         if (const auto differs = first_difference(a.parts[p], b.parts[p])) {
-            throw InputError(band.path() + ": its attribute '" + std::string(*differs) +
-                             "' differs from that of " + first.path() +
+            throw InputError(band.path() + ": its attribute '" + std::string(*differs) + "' differs from that of " +
+                             first.path() +
                              "; render all bands by the same version, from the same scene and with the same options");
         }
         if (a.parts[p].data.x0 != b.parts[p].data.x0 || a.parts[p].data.x1 != b.parts[p].data.x1)

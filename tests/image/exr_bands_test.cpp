@@ -64,8 +64,7 @@ TEST(ExrBands, JoinedBandsAreTheBytesOfTheWhole) {
         Random random(trial);
         // The picture may begin above and left of the display window, as with overscan.
         const int x0 = random.integer(-4, 4), y0 = random.integer(-4, 4);
-        const PixelRect whole{x0, y0, x0 + 1 + random.integer(0, 39),
-                              y0 + 1 + random.integer(0, 189)};
+        const PixelRect whole{x0, y0, x0 + 1 + random.integer(0, 39), y0 + 1 + random.integer(0, 189)};
         const ExrOptions options{1, {{"burin/fingerprint", "0123456789abcdef"}}};
         const std::string expected = read_file(write_band(folder, "whole.exr", whole, options));
         std::vector<std::string> bands;
@@ -75,8 +74,7 @@ TEST(ExrBands, JoinedBandsAreTheBytesOfTheWhole) {
                                        {whole.x0, y, whole.x1, end}, options));
             y = end;
         }
-        for (std::size_t i = bands.size(); i > 1; --i)
-            std::swap(bands[i - 1], bands[random.bits() % i]);
+        for (std::size_t i = bands.size(); i > 1; --i) std::swap(bands[i - 1], bands[random.bits() % i]);
         join_exr_bands(bands, folder.file("joined.exr"));
         EXPECT_TRUE(read_file(folder.file("joined.exr")) == expected) << bands.size() << " bands";
     }
@@ -102,7 +100,9 @@ TEST(ExrBands, WhatDoesNotFitIsRefusedWithItsName) {
     EXPECT_TRUE(joined(named).starts_with(named + ": its attribute 'comment' differs")) << joined(named);
     const std::string uneven = write_band(folder, "uneven.exr", {0, 0, 40, 31});
     const std::string below = write_band(folder, "below.exr", {0, 31, 40, 64});
-    EXPECT_EQ(error_of([&] { join_exr_bands({below, uneven}, folder.file("joined.exr")); }),
+    EXPECT_EQ(error_of([&] {
+                  join_exr_bands({below, uneven}, folder.file("joined.exr"));
+              }),
               below + ": begins at row 31, not at a multiple of 16");
     EXPECT_EQ(joined(folder.file("none.exr")).find(folder.file("none.exr") + ": "), 0u);
     EXPECT_EQ(folder.names().size(), 8u) << "nothing is written where bands do not fit";
@@ -114,7 +114,8 @@ TEST(ExrBands, HalfAFileIsRefused) {
     const std::string bytes = read_file(path);
     for (std::size_t length = 1; length < bytes.size(); length += 1 + length / 7) {
         folder.write("cut.exr", bytes.substr(0, length));
-        const std::string error = error_of([&] { join_exr_bands({folder.file("cut.exr")}, folder.file("joined.exr")); });
+        const std::string error =
+            error_of([&] { join_exr_bands({folder.file("cut.exr")}, folder.file("joined.exr")); });
         EXPECT_TRUE(error.starts_with(folder.file("cut.exr") + ": ")) << length << ": " << error;
     }
     // A writer that was killed leaves zeros in the table, which stands behind the header.
@@ -137,7 +138,8 @@ TEST(ExrContainer, MutatedFilesAreReadOrRefused) {
         std::string mutated = bytes;
         for (int n = random.integer(1, 3); n > 0; --n) {
             // Headers and tables are what is read: most changes are there.
-            const std::size_t reach = random.integer(0, 3) == 0 ? mutated.size() : std::min<std::size_t>(400, mutated.size());
+            const std::size_t reach =
+                random.integer(0, 3) == 0 ? mutated.size() : std::min<std::size_t>(400, mutated.size());
             mutated[random.bits() % reach] = static_cast<char>(random.bits());
         }
         if (random.integer(0, 7) == 0) mutated.resize(random.bits() % mutated.size());
