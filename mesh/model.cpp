@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <new>
+#include <optional>
 #include <sstream>
 #include <utility>
 
 #include "base/error.h"
 #include "base/lower_extension.h"
 #include "base/mapped_file.h"
+#include "mesh/deforming_mesh.h"
 #include "mesh/gltf.h"
+#include "mesh/model_player.h"
 #include "mesh/readers.h"
 #include "mesh/self_crossings.h"
 
@@ -20,6 +24,16 @@ namespace {
 std::vector<Mesh> build_meshes_of(const std::string& path, PolygonSoup soup, const MeshOptions& options) {
     try {
         return build_meshes(std::move(soup), options);
+    } catch (const InputError& error) {
+        throw InputError(path + ": " + error.what());
+    }
+}
+
+/// The same of a mesh that deforms.
+DeformingMesh deforming_mesh_of(const std::string& path, PolygonSoup soup, const GltfMover& mover,
+                                const MeshOptions& options) {
+    try {
+        return DeformingMesh(std::move(soup), mover.deformation.kinds(), options);
     } catch (const InputError& error) {
         throw InputError(path + ": " + error.what());
     }
@@ -69,16 +83,39 @@ Model model_of(const std::string& path, GltfScene scene, const MeshOptions& opti
         }
     }
     note_subdivision(has_attributes, options, scene.notes);
+    std::map<std::size_t, GltfMover*> movers;
+    if (scene.motion) {
+        for (auto& [mesh, mover] : scene.motion->movers) movers[mesh] = &mover;
+    }
+    std::vector<ModelPlayer::Part> parts;
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-        std::vector<Mesh> built = build_meshes_of(path, std::move(scene.meshes[i]), options);
-        if (built.empty()) continue;
-        mesh_number[i] = static_cast<std::uint32_t>(model.meshes.size());
-        model.meshes.push_back(std::move(built.front()));
+        const auto number = static_cast<std::uint32_t>(model.meshes.size());
+        if (const auto mover = movers.find(i); mover != movers.end()) {
+            DeformingMesh surface = deforming_mesh_of(path, std::move(scene.meshes[i]), *mover->second, options);
+            std::optional<Mesh> rest = surface.take_rest();
+            if (!rest) continue;
+            model.meshes.push_back(*std::move(rest));
+            parts.push_back({number, std::move(surface), std::move(*mover->second)});
+        } else {
+            std::vector<Mesh> built = build_meshes_of(path, std::move(scene.meshes[i]), options);
+            if (built.empty()) continue;
+            model.meshes.push_back(std::move(built.front()));
+        }
+        mesh_number[i] = number;
     }
-    for (GltfObject& object : scene.objects) {
+    std::vector<RiggedObject> rigged;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        GltfObject& object = scene.objects[i];
         const std::uint32_t mesh = mesh_number[object.mesh];
-        if (mesh != kNoMesh) model.objects.push_back({std::move(object.name), mesh, object.to_world});
+        if (mesh == kNoMesh) continue;
+        model.objects.push_back({std::move(object.name), mesh, object.to_world});
+        if (scene.motion) rigged.push_back(scene.motion->objects[i]);
     }
+    if (scene.motion) {
+        model.player = std::make_shared<const ModelPlayer>(std::move(scene.motion->rig), std::move(rigged),
+                                                           std::move(scene.motion->cameras), std::move(parts));
+    }
+    model.animations = std::move(scene.animations);
     for (GltfCamera& c : scene.cameras) {
         model.cameras.push_back({std::move(c.name), c.orthographic, c.fov_deg, c.height, c.to_world});
     }
@@ -89,7 +126,7 @@ Model model_of(const std::string& path, GltfScene scene, const MeshOptions& opti
     return model;
 }
 
-Model read_by_extension(const std::string& path, const MeshOptions& options) {
+Model read_by_extension(const std::string& path, const MeshOptions& options, const AnimationWish& animations) {
     const std::string extension = lower_extension(path);
     if (extension == ".obj") {
         std::vector<std::string> material_files;
@@ -109,7 +146,7 @@ Model read_by_extension(const std::string& path, const MeshOptions& options) {
         ModelBudget by_default;
         return model_of(path,
                         read_gltf(path, options.budget != nullptr ? *options.budget : by_default, options.strict,
-                                  options.attributes),
+                                  options.attributes, animations),
                         options);
     }
     throw InputError(path + ": unknown kind of model '" + extension + "'; burin reads " + kModelExtensions);
@@ -123,11 +160,11 @@ bool is_model_file(const std::string& path) {
     return std::find(std::istream_iterator<std::string>(known), {}, extension) != std::istream_iterator<std::string>();
 }
 
-Model read_model(const std::string& path, const MeshOptions& options) {
+Model read_model(const std::string& path, const MeshOptions& options, const AnimationWish& animations) {
     const FileLength given(path);
     Model model;
     try {
-        model = read_by_extension(path, options);
+        model = read_by_extension(path, options, animations);
     } catch (const InputError&) {
         given.check();  // what was wrong may be the zeros where the file ends now
         throw;
