@@ -174,8 +174,8 @@ std::optional<std::uint32_t> chosen_gltf_animation(const std::string& path, cons
             }
             break;
     }
-    const std::string wanted = choice.by == AnimationChoice::By::number ? std::to_string(choice.number)
-                                                                        : "\"" + printable(choice.name) + "\"";
+    const std::string wanted =
+        choice.by == AnimationChoice::By::number ? std::to_string(choice.number) : "\"" + printable(choice.name) + "\"";
     throw InputError(path + ": no animation " + wanted + "; it has " +
                      (count == 0 ? "none" : names_of_animations(root)));
 }
@@ -210,7 +210,8 @@ GltfAnimation read_gltf_animation(const JsonPlace& root, std::uint32_t number, c
         plans.push_back({node, {place.at("samplers").element(sampler), path, width, buffers}});
         needed_bytes += plans.back().sampler.size_bytes;
     }
-    // Numbers of the file take at most eight times their room in it; more is made of keys that it names again and again.
+    // Numbers of the file take at most eight times their room in it; more is made of keys that it names again and
+    // again.
     const std::uint64_t own_bytes = saturating_product(buffers.size_bytes(), 8);
     const std::string label = "animation \"" + printable(name_of_animation(place)) + "\"";
     budget.add(needed_bytes > own_bytes ? needed_bytes - own_bytes : 0, label + " with its keys");

@@ -26,8 +26,8 @@ class GltfDeformation {
     static std::uint64_t most_bytes(std::uint64_t vertices, std::size_t target_count, bool has_skin);
 
     /// Where the vertices are: morph targets first, then joints, as pose_gltf_mesh() has it, to the bit.
-    /// `weights`: of the targets; empty: all 0. `joint_matrices`: of the skin. Throws InputError if a vertex is then not
-    /// finite or beyond 1e30.
+    /// `weights`: of the targets; empty: all 0. `joint_matrices`: of the skin. Throws InputError if a vertex is then
+    /// not finite or beyond 1e30.
     std::vector<glm::dvec3> positions(std::span<const double> weights,
                                       std::span<const glm::dmat4> joint_matrices) const;
 

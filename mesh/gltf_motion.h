@@ -38,8 +38,7 @@ struct GltfMover {
     std::vector<glm::dmat4> inverse_binds;
 
     /// Where the vertices are at a time. `to_world`: of the nodes then.
-    std::vector<glm::dvec3> positions(const GltfRig& rig, const std::vector<glm::dmat4>& to_world,
-                                      double time_s) const;
+    std::vector<glm::dvec3> positions(const GltfRig& rig, const std::vector<glm::dmat4>& to_world, double time_s) const;
 };
 
 /// Where a node puts an object; one with a skin stands where its joints are.
@@ -56,7 +55,7 @@ struct RiggedObject {
 struct GltfMotion {
     GltfRig rig;
     std::vector<RiggedObject> objects;
-    std::vector<std::uint32_t> cameras;                      ///< nodes
+    std::vector<std::uint32_t> cameras;                       ///< nodes
     std::vector<std::pair<std::uint32_t, GltfMover>> movers;  ///< of meshes that deform, with their numbers
 };
 

@@ -58,8 +58,7 @@ double GltfSampler::spline(const Between& at, std::size_t number) const {
     const double u = at.part, u2 = u * u, u3 = u2 * u;
     const double seconds = times_s[at.key + 1] - times_s[at.key];
     return (2 * u3 - 3 * u2 + 1) * value(at.key)[number] + (u3 - 2 * u2 + u) * seconds * tangent(at.key, true)[number] +
-           (3 * u2 - 2 * u3) * value(at.key + 1)[number] +
-           (u3 - u2) * seconds * tangent(at.key + 1, false)[number];
+           (3 * u2 - 2 * u3) * value(at.key + 1)[number] + (u3 - u2) * seconds * tangent(at.key + 1, false)[number];
 }
 
 void GltfSampler::sample(double time_s, std::span<double> numbers) const {

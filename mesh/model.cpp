@@ -14,6 +14,7 @@
 #include "mesh/deforming_mesh.h"
 #include "mesh/gltf.h"
 #include "mesh/model_player.h"
+#include "mesh/model_source.h"
 #include "mesh/readers.h"
 #include "mesh/self_crossings.h"
 
@@ -126,30 +127,43 @@ Model model_of(const std::string& path, GltfScene scene, const MeshOptions& opti
     return model;
 }
 
-Model read_by_extension(const std::string& path, const MeshOptions& options, const AnimationWish& animations) {
+ModelSource read_by_extension(const std::string& path, const MeshOptions& options, const AnimationWish& animations) {
     const std::string extension = lower_extension(path);
+    ModelSource source{path, PolygonSoup(), {}};
     if (extension == ".obj") {
-        std::vector<std::string> material_files;
-        PolygonSoup soup = read_obj(path, options.threads, &material_files, options.attributes);
+        PolygonSoup soup = read_obj(path, options.threads, &source.other_files, options.attributes);
         if (options.strict && !soup.notes.empty()) {
             throw InputError(path + ": " + soup.notes.front() + "; re-export the model, or leave out --strict");
         }
-        Model model = model_of(path, std::move(soup), options);
-        model.other_files = std::move(material_files);
-        return model;
-    }
-    if (extension == ".ply")
-        return model_of(path, read_ply(path, options.threads, options.strict, options.attributes), options);
-    if (extension == ".stl") return model_of(path, read_stl(path, options.strict), options);
-    if (extension == ".off") return model_of(path, read_off(path, options.strict), options);
-    if (extension == ".gltf" || extension == ".glb") {
+        source.content = std::move(soup);
+    } else if (extension == ".ply") {
+        source.content = read_ply(path, options.threads, options.strict, options.attributes);
+    } else if (extension == ".stl") {
+        source.content = read_stl(path, options.strict);
+    } else if (extension == ".off") {
+        source.content = read_off(path, options.strict);
+    } else if (extension == ".gltf" || extension == ".glb") {
         ModelBudget by_default;
-        return model_of(path,
-                        read_gltf(path, options.budget != nullptr ? *options.budget : by_default, options.strict,
-                                  options.attributes, animations),
-                        options);
+        source.content = read_gltf(path, options.budget != nullptr ? *options.budget : by_default, options.strict,
+                                   options.attributes, animations);
+    } else {
+        throw InputError(path + ": unknown kind of model '" + extension + "'; burin reads " + kModelExtensions);
     }
-    throw InputError(path + ": unknown kind of model '" + extension + "'; burin reads " + kModelExtensions);
+    return source;
+}
+
+/// Calls work(). What is wrong may be the zeros where the file ends now: then that is said.
+template <typename Work>
+auto while_whole(const std::string& path, const Work& work) {
+    const FileLength given(path);
+    try {
+        auto result = work();
+        given.check();
+        return result;
+    } catch (const InputError&) {
+        given.check();
+        throw;
+    }
 }
 
 }  // namespace
@@ -160,16 +174,15 @@ bool is_model_file(const std::string& path) {
     return std::find(std::istream_iterator<std::string>(known), {}, extension) != std::istream_iterator<std::string>();
 }
 
-Model read_model(const std::string& path, const MeshOptions& options, const AnimationWish& animations) {
-    const FileLength given(path);
-    Model model;
-    try {
-        model = read_by_extension(path, options, animations);
-    } catch (const InputError&) {
-        given.check();  // what was wrong may be the zeros where the file ends now
-        throw;
-    }
-    given.check();
+ModelSource read_model_source(const std::string& path, const MeshOptions& options, const AnimationWish& animations) {
+    return while_whole(path, [&] { return read_by_extension(path, options, animations); });
+}
+
+Model make_model(ModelSource source, const MeshOptions& options) {
+    const std::string path = source.path;
+    Model model =
+        std::visit([&](auto& content) { return model_of(path, std::move(content), options); }, source.content);
+    model.other_files.insert(model.other_files.end(), source.other_files.begin(), source.other_files.end());
     const bool has_any = std::any_of(model.objects.begin(), model.objects.end(), [&](const auto& o) {
         const Mesh& mesh = model.meshes[o.mesh];
         return !mesh.triangles.empty() || !mesh.loose_edges.empty();
@@ -178,6 +191,10 @@ Model read_model(const std::string& path, const MeshOptions& options, const Anim
         throw InputError(path + ": no polygon with an area is in it; burin draws the lines of surfaces");
     }
     return model;
+}
+
+Model read_model(const std::string& path, const MeshOptions& options, const AnimationWish& animations) {
+    return while_whole(path, [&] { return make_model(read_by_extension(path, options, animations), options); });
 }
 
 }  // namespace burin

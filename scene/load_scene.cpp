@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -12,7 +13,9 @@
 #include "base/interrupt.h"
 #include "mesh/model.h"
 #include "mesh/text_scan.h"
+#include "scene/animation/model_sequence.h"
 #include "scene/animation/placeable.h"
+#include "scene/animation/played_model.h"
 #include "scene/missing_attributes.h"
 #include "scene/object_names.h"
 #include "scene/scene_description.h"
@@ -27,9 +30,10 @@ struct LoadedModel {
     std::vector<ModelObject> objects;
     std::uint32_t first_mesh = 0;
     MaterialList materials;
-    std::uint64_t polygons = 0;    // of all objects
-    std::uint64_t name_bytes = 0;  // of all objects
-    bool is_placed = false;        // at least once
+    std::uint64_t polygons = 0;                  // of all objects
+    std::uint64_t name_bytes = 0;                // of all objects
+    bool is_placed = false;                      // at least once
+    std::size_t motion = SceneAnimation::kNone;  // number among the animation's models
 };
 
 class SceneLoader {
@@ -39,6 +43,8 @@ class SceneLoader {
           threads_(options.threads),
           strict_(options.strict),
           budget_(options.budget),
+          first_frame_(options.first_frame),
+          lists_animations_(options.lists_animations),
           files_read_(files) {
         scene_.materials = from_.materials;
         scene_.cameras = from_.cameras;
@@ -54,8 +60,10 @@ class SceneLoader {
         scene_.gbuffer = from_.gbuffer;
         scene_.zbuffer = from_.zbuffer;
         scene_.wire = from_.wire;
-        may_move_ = std::any_of(from_.objects.begin(), from_.objects.end(),
-                                [](const ObjectDescription& object) { return !object.keys.empty(); });
+        may_move_ = std::any_of(from_.objects.begin(), from_.objects.end(), [&](const ObjectDescription& object) {
+            return !object.keys.empty() || (first_frame_ && !object.file.empty());
+        });
+        if (first_frame_ && !from_.frame_range.empty()) first_frame_ = from_.frame_range.front();
         if (from_.sheet) attribute_readers_.sheet = attributes_named_in(*from_.sheet);
         kept_attributes_ = options.keeps_attributes ? AttributeWish::all() : attribute_readers_.sheet;
         if (from_.surfaces.recipe) {
@@ -170,9 +178,14 @@ class SceneLoader {
     LoadedModel& model_of(const ObjectDescription& object) {
         // Without subdivision the scheme changes nothing.
         const SubdivisionScheme scheme = object.subdivide > 0 ? object.scheme : SubdivisionScheme::automatic;
-        std::shared_ptr<LoadedModel>& as_written = files_[{object.file, object.subdivide, scheme}];
+        const auto key = [&](const std::string& file) {
+            // While nothing moves, what says how does not count.
+            const AnimationChoice choice = first_frame_ ? object.animation : AnimationChoice();
+            return std::tuple(file, object.subdivide, scheme, choice, object.frame_offset, object.holds_missing);
+        };
+        std::shared_ptr<LoadedModel>& as_written = files_[key(object.file)];
         if (as_written) return *as_written;
-        std::shared_ptr<LoadedModel>& model = files_[{spelled_one_way(object.file), object.subdivide, scheme}];
+        std::shared_ptr<LoadedModel>& model = files_[key(spelled_one_way(object.file))];
         if (!model) model = std::make_shared<LoadedModel>(read(object, scheme));
         as_written = model;
         return *model;
@@ -187,14 +200,58 @@ class SceneLoader {
         return error ? file : (folder / path.filename()).string();
     }
 
-    LoadedModel read(const ObjectDescription& object, SubdivisionScheme scheme) {
-        Model model =
-            read_model(object.file, {object.subdivide, scheme, &budget_, threads_, strict_, kept_attributes_});
+    /// The pattern of a sequence's files; none: it is one file, whose name may look like a pattern.
+    std::optional<FramePattern> pattern_of(const ObjectDescription& object) const {
+        using Single = FramePattern::SingleHash;
+        std::error_code error;
+        if (std::filesystem::exists(object.file, error)) return std::nullopt;
+        return FramePattern::find(object.file, first_frame_ ? Single::digits : Single::letter);
+    }
+
+    /// Reads the first file of a sequence, and tells its motion.
+    Model load_sequence(const ObjectDescription& object, const FramePattern& pattern, const MeshOptions& options,
+                        std::size_t& motion) {
+        SequenceSettings settings{
+            pattern,
+            object.name.empty() ? std::filesystem::path(object.file).filename().string() : object.name,
+            object.frame_offset,
+            object.holds_missing,
+            options,
+            budget_.limit_bytes()};
+        const auto sequence = std::make_shared<ModelSequence>(std::move(settings));
+        if (!first_frame_ && !lists_animations_) {
+            throw UsageError(object.file + ": is a model per frame; say which with --frames or [frames] range");
+        }
+        const double frame = first_frame_ ? *first_frame_ : sequence->first_frame();
+        Model model = sequence->load(frame);
+        if (first_frame_) motion = add_motion(sequence);
         if (files_read_ != nullptr) {
-            files_read_->push_back(object.file);
+            for (std::string& file : sequence->files_at(frame)) files_read_->push_back(std::move(file));
+        }
+        return model;
+    }
+
+    std::size_t add_motion(std::shared_ptr<const ModelMotion> motion) {
+        animation_.models.push_back({std::move(motion), static_cast<std::uint32_t>(scene_.meshes.size())});
+        return animation_.models.size() - 1;
+    }
+
+    LoadedModel read(const ObjectDescription& object, SubdivisionScheme scheme) {
+        const MeshOptions options{object.subdivide, scheme, &budget_, threads_, strict_, kept_attributes_};
+        const std::optional<FramePattern> pattern = pattern_of(object);
+        std::size_t motion = SceneAnimation::kNone;
+        Model model =
+            pattern ? load_sequence(object, *pattern, options, motion)
+                    : read_model(object.file, options, {first_frame_.has_value(), lists_animations_, object.animation});
+        if (model.player)
+            motion = add_motion(std::make_shared<PlayedModel>(object.file, model.player, from_.frame.fps));
+        if (!model.animations.empty()) animation_.files.push_back({object.file, std::move(model.animations)});
+        if (files_read_ != nullptr) {
+            if (!pattern) files_read_->push_back(object.file);
             files_read_->insert(files_read_->end(), model.other_files.begin(), model.other_files.end());
         }
-        for (const ModelCamera& c : model.cameras) {
+        for (std::size_t i = 0; i < model.cameras.size(); ++i) {
+            const ModelCamera& c = model.cameras[i];
             CameraSettings camera;
             camera.name = c.name;
             camera.orthographic = c.orthographic;
@@ -206,9 +263,13 @@ class SceneLoader {
                                             .place = {.keys = keys_of(object),
                                                       .object = object.to_world,
                                                       .instance = object.instances.front(),
+                                                      .model = motion,
+                                                      .part = i,
                                                       .own = c.to_world}});
         }
-        return adopt(std::move(model));
+        LoadedModel loaded = adopt(std::move(model));
+        loaded.motion = motion;
+        return loaded;
     }
 
     /// Moves a model's meshes and materials into the scene.
@@ -247,7 +308,8 @@ class SceneLoader {
         const std::size_t keys = keys_of(object);
         for (std::size_t i = 0; i < object.instances.size(); ++i) {
             throw_if_interrupted();
-            for (const ModelObject& part : model.objects) {
+            for (std::size_t k = 0; k < model.objects.size(); ++k) {
+                const ModelObject& part = model.objects[k];
                 SceneObject placed;
                 placed.name = name_of(object, part, i);
                 placed.mesh = model.first_mesh + part.mesh;
@@ -258,6 +320,8 @@ class SceneLoader {
                     animation_.objects.push_back({.keys = keys,
                                                   .object = object.to_world,
                                                   .instance = object.instances[i],
+                                                  .model = model.motion,
+                                                  .part = k,
                                                   .own = part.to_world,
                                                   .name = placed.name});
                 }
@@ -288,10 +352,14 @@ class SceneLoader {
     int threads_;
     bool strict_;
     ModelBudget budget_;
+    std::optional<double> first_frame_;
+    bool lists_animations_;
     std::vector<std::string>* files_read_;  // nullptr: nobody asks
     Scene scene_;
     std::map<std::string, std::uint32_t, std::less<>> material_numbers_;  // of those of the scene file
-    std::map<std::tuple<std::string, int, SubdivisionScheme>, std::shared_ptr<LoadedModel>> files_;
+    std::map<std::tuple<std::string, int, SubdivisionScheme, AnimationChoice, double, bool>,
+             std::shared_ptr<LoadedModel>>
+        files_;
     std::uint64_t polygons_ = 0;
     AttributeReaders attribute_readers_;
     AttributeWish kept_attributes_;             // of files

@@ -2,6 +2,7 @@
 
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -9,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/model_budget.h"
+#include "mesh/animation_choice.h"
 #include "mesh/polygon_soup.h"
 #include "mesh/shapes.h"
 #include "scene/animation/keys.h"
@@ -27,7 +29,10 @@ struct ObjectDescription {
     Shape shape;       ///< if there is no file
     int subdivide = 0;
     SubdivisionScheme scheme = SubdivisionScheme::automatic;
-    std::string material;  ///< name; empty: the file's own materials
+    std::string material;        ///< name; empty: the file's own materials
+    AnimationChoice animation;   ///< of the file, if it is a glTF
+    double frame_offset = 0;     ///< of a sequence: the number of a frame's file less that of the frame
+    bool holds_missing = false;  ///< of a sequence: where a file is missing, an earlier one is shown
     glm::dmat4 to_world{1.0};
     ObjectKeys keys;                    ///< they say what to_world is at a frame
     std::vector<glm::dmat4> instances;  ///< each within to_world; never empty
@@ -86,6 +91,10 @@ struct LoadOptions {
     bool strict = false;            ///< refuses a model of which a reader would leave a part out with a note
     bool keeps_attributes = false;  ///< of vertices, all that files have; else what the sheet reads
     ModelBudget budget{};           ///< what shapes, subdivisions and instances may take
+    /// The first frame that is drawn: what moves within models is loaded, and sequences with the file of this frame.
+    /// None: a still, in which models stand as their files put them.
+    std::optional<double> first_frame = std::nullopt;
+    bool lists_animations = false;  ///< of files; then a sequence needs no frame
 };
 
 /// Loads the models that a description names, each file once, and makes its shapes, one after the other. Throws

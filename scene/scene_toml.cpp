@@ -1,12 +1,16 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <unordered_set>
 
 #include "base/interrupt.h"
+#include "base/lower_extension.h"
 #include "base/mapped_file.h"
 #include "mesh/text_scan.h"
+#include "scene/animation/frame_list.h"
+#include "scene/animation/frame_pattern.h"
 #include "scene/animation/keys_toml.h"
 #include "scene/color.h"
 #include "scene/gbuffer_toml.h"
@@ -154,7 +158,11 @@ class SceneReader {
             const std::filesystem::path file(*t.text("file"));
             object.file = file.is_absolute() ? file.string() : (folder_ / file).string();
             object.where = t.position("file");
+            read_motion(t, object);
         } else {
+            for (const char* key : {"animation", "frame_offset", "missing"}) {
+                if (t.has(key)) t.fail(key, "is for model files; a shape has none");
+            }
             object.shape = read_shape(t);
         }
         object.name = t.text("name").value_or(has_file ? "" : object.shape.name);
@@ -177,6 +185,33 @@ class SceneReader {
         if (object.instances.empty()) object.instances.emplace_back(1.0);
         t.finish();
         scene_.objects.push_back(std::move(object));
+    }
+
+    /// What says how a model file moves.
+    static void read_motion(TomlReader& t, ObjectDescription& object) {
+        if (t.has("animation")) {
+            const std::string suffix = lower_extension(object.file);
+            if (suffix != ".gltf" && suffix != ".glb") t.fail("animation", "only .gltf and .glb files have animations");
+            using By = AnimationChoice::By;
+            if (t.is_number("animation")) {
+                const int number = *t.integer("animation", 0, std::numeric_limits<int>::max());
+                object.animation = {By::number, static_cast<std::uint32_t>(number), {}};
+            } else {
+                const std::string name = *t.text("animation");
+                object.animation = {name == "none" ? By::none : By::name, 0, name == "none" ? "" : name};
+            }
+        }
+        for (const char* key : {"frame_offset", "missing"}) {
+            if (!t.has(key)) continue;
+            try {
+                if (FramePattern::find(object.file, FramePattern::SingleHash::digits)) continue;
+            } catch (const InputError& error) {
+                t.fail("file", error.what());
+            }
+            t.fail(key, "is for a file per frame, as walk.####.obj");
+        }
+        object.frame_offset = t.number("frame_offset", {-kLargestFrame, kLargestFrame}).value_or(0);
+        object.holds_missing = t.choice("missing", {"error", "hold"}).value_or(0) == 1;
     }
 
     void read_picture(TomlReader& t) {

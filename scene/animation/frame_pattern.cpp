@@ -1,6 +1,7 @@
 #include "scene/animation/frame_pattern.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -89,6 +90,19 @@ std::string FramePattern::path_of(double frame) const {
     if (whole.size() < digits_) whole.insert(0, digits_ - whole.size(), '0');
     if (fraction.size() < digits_behind_point_) fraction.append(digits_behind_point_ - fraction.size(), '0');
     return before_ + (frame < 0 ? "-" : "") + whole + (fraction.empty() ? "" : "." + fraction) + behind_;
+}
+
+std::optional<double> FramePattern::number_in(const std::string& file_name) const {
+    const std::string before = before_.substr(before_.rfind('/') + 1);
+    if (file_name.size() <= before.size() + behind_.size() || !file_name.starts_with(before)) return std::nullopt;
+    const std::string digits = file_name.substr(before.size(), file_name.size() - before.size() - behind_.size());
+    double number = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    const bool is_number = error == std::errc() && end == digits.data() + digits.size();
+    if (!is_number || !(std::abs(number) <= kLargestFrame)) return std::nullopt;
+    const std::string path = path_of(number);
+    const bool is_written_so = path.substr(path.rfind('/') + 1) == file_name;
+    return is_written_so ? std::optional(number) : std::nullopt;
 }
 
 }  // namespace burin

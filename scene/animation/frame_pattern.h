@@ -21,6 +21,8 @@ class FramePattern {
 
     /// The path of a frame. Numbers that are too long are written out; a minus stands in front.
     std::string path_of(double frame) const;
+    /// The number of the frame whose path ends with this name of a file; nothing: there is none.
+    std::optional<double> number_in(const std::string& file_name) const;
 
   private:
     std::string before_, behind_;

@@ -17,7 +17,8 @@ struct Moved {
     std::vector<glm::dmat4> keys;
     std::vector<ModelMotion::Pose> poses;
 
-    glm::dmat4 place_of(const SceneAnimation::Place& place, const std::vector<glm::dmat4> ModelMotion::Pose::*parts) const {
+    glm::dmat4 place_of(const SceneAnimation::Place& place,
+                        const std::vector<glm::dmat4> ModelMotion::Pose::*parts) const {
         const glm::dmat4& object = place.keys == SceneAnimation::kNone ? place.object : keys[place.keys];
         const glm::dmat4* own = &place.own;
         if (place.model != SceneAnimation::kNone) {
@@ -44,8 +45,7 @@ SceneChange SceneAnimation::at(double frame) const {
     for (const ObjectKeys& one : keys) moved.keys.push_back(one.at(frame));
     for (const MovingModel& model : models) {
         ModelMotion::Pose& pose = moved.poses.emplace_back(model.motion->at(frame));
-        for (auto& [number, mesh] : pose.meshes)
-            change.meshes.emplace_back(model.first_mesh + number, std::move(mesh));
+        for (auto& [number, mesh] : pose.meshes) change.meshes.emplace_back(model.first_mesh + number, std::move(mesh));
         for (std::string& note : pose.notes) change.notes.push_back(std::move(note));
     }
     if (objects_move()) {

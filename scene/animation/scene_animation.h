@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/animation_choice.h"
 #include "mesh/mesh.h"
 #include "scene/animation/keys.h"
 #include "scene/scene.h"
@@ -37,6 +38,14 @@ class ModelMotion {
     virtual ~ModelMotion() = default;
     /// Any threads may call it at once. Throws InputError.
     virtual Pose at(double frame) const = 0;
+    /// Files that are read for this frame alone.
+    virtual std::vector<std::string> files_at(double /*frame*/) const { return {}; }
+};
+
+/// The animations that a model file has.
+struct AnimationsOfFile {
+    std::string file;
+    std::vector<AnimationSummary> animations;
 };
 
 /// How the things of a scene move. It borrows nothing of the Scene: at() may run while a frame of that is drawn.
@@ -72,6 +81,7 @@ class SceneAnimation {
     std::vector<Place> objects;  ///< one per object of the scene
     std::vector<MovingCamera> cameras;
     double fps = 24;
+    std::vector<AnimationsOfFile> files;  ///< if they were asked for, those that have animations
 
     /// Whether there is anything that at() would change.
     bool moves() const { return objects_move() || cameras_move() || !models.empty(); }

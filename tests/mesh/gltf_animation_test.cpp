@@ -40,8 +40,8 @@ int add_times(GltfAccessors& a, std::initializer_list<float> times) {
 std::string animation_of(int node, const char* path, int input, int output, const char* more = "",
                          const char* name = "") {
     return R"({"name": ")" + std::string(name) + R"(", "channels": [{"sampler": 0, "target": {"node": )" +
-           std::to_string(node) + R"(, "path": ")" + path + R"("}}], "samplers": [{"input": )" +
-           std::to_string(input) + R"(, "output": )" + std::to_string(output) + more + "}]}";
+           std::to_string(node) + R"(, "path": ")" + path + R"("}}], "samplers": [{"input": )" + std::to_string(input) +
+           R"(, "output": )" + std::to_string(output) + more + "}]}";
 }
 
 /// A triangle, whose accessor is number 0.
@@ -163,7 +163,8 @@ GltfParts morphing(const std::string& outputs, int component_type, std::size_t c
     a.add_vectors({0, 0, 1, 0, 0, 1, 0, 0, 2});
     a.add_vectors({4, 0, 0, 0, 0, 0, 0, 8, 0});
     const int times = add_times(a, {0, 1});
-    const int weights = a.add(outputs, "SCALAR", component_type, count, component_type == 5126 ? "" : R"("normalized": true)");
+    const int weights =
+        a.add(outputs, "SCALAR", component_type, count, component_type == 5126 ? "" : R"("normalized": true)");
     GltfParts parts = gltf_of(a, R"({"attributes": {"POSITION": 0}, "targets": [{"POSITION": 1}, {"POSITION": 2}]})");
     parts.animations = "[" + animation_of(0, "weights", times, weights, more) + "]";
     return parts;
@@ -181,8 +182,8 @@ TEST_F(GltfAnimations, WeightsOfMorphTargetsMove) {
     const Model bytes = model(morphing(std::string("\0\0\xff\0", 4), 5121, 4));
     EXPECT_TRUE(is_near(place(bytes, 0.5, 2), {0, 1, 1}));
 
-    const Model spline = model(morphing(floats({9, 9, 0, 0, 0, 0, 0, 0, 1, 0.5f, 9, 9}), 5126, 12,
-                                        R"(, "interpolation": "CUBICSPLINE")"));
+    const Model spline = model(
+        morphing(floats({9, 9, 0, 0, 0, 0, 0, 0, 1, 0.5f, 9, 9}), 5126, 12, R"(, "interpolation": "CUBICSPLINE")"));
     EXPECT_TRUE(is_near(place(spline, 0.5, 2), {0, 3, 1}));
     EXPECT_TRUE(is_near(place(spline, 0.25, 2), {0, 1 + 4 * 10.0 / 64, 2 * 10.0 / 64}));
 }
@@ -239,7 +240,8 @@ TEST_F(GltfAnimations, TargetsComeBeforeJoints) {
     GltfParts parts = t.parts(2);
     t.a.put_into(parts);
     parts.meshes = R"([{"weights": [1], "primitives": [{"attributes": {"POSITION": 0, "JOINTS_0": 1, "WEIGHTS_0": 2},)"
-                   R"( "targets": [{"POSITION": )" + std::to_string(deltas) + "}]}]}]";
+                   R"( "targets": [{"POSITION": )" +
+                   std::to_string(deltas) + "}]}]}]";
     EXPECT_TRUE(is_near(place(model(parts), 1, 1), {0, 2, 0}));
 }
 
@@ -317,7 +319,8 @@ TEST_F(GltfAnimations, ChannelsWithoutANodeAreLeftOutWithOneNote) {
     parts.animations.insert(parts.animations.find("[{\"sampler\"") + 1, channel + pointer + again);
     const Model m = model(parts);
     ASSERT_EQ(m.notes.size(), 2u);
-    EXPECT_NE(m.notes[0].find("animation \"Walk\": left out 2 channels without a node"), std::string::npos) << m.notes[0];
+    EXPECT_NE(m.notes[0].find("animation \"Walk\": left out 2 channels without a node"), std::string::npos)
+        << m.notes[0];
     EXPECT_NE(m.notes[1].find("left out 1 channel for what an earlier channel moves"), std::string::npos) << m.notes[1];
     EXPECT_NE(m.player->at(2.5).objects[0], glm::dmat4(1.0));
 }
@@ -341,7 +344,8 @@ TEST_F(GltfAnimations, BrokenKeysAreRefused) {
     EXPECT_TRUE(refuses(with({1, 0}, {0, 0, 0, 0, 0, 0}, kMoves, "VEC3"),
                         {"animations[0].samplers[0].input: the time of key 1 is not after that of the one before"}));
     EXPECT_TRUE(refuses(with({1, 1}, {0, 0, 0, 0, 0, 0}, kMoves, "VEC3"), {"times must ascend"}));
-    EXPECT_TRUE(refuses(with({nan}, {0, 0, 0}, kMoves, "VEC3"), {"samplers[0].input: the time of key 0 is not finite"}));
+    EXPECT_TRUE(
+        refuses(with({nan}, {0, 0, 0}, kMoves, "VEC3"), {"samplers[0].input: the time of key 0 is not finite"}));
     EXPECT_TRUE(refuses(with({0, 1}, {0, 0, 0, 0, inf, 0}, kMoves, "VEC3"),
                         {"animations[0].samplers[0].output: element 1 is not finite"}));
     EXPECT_TRUE(refuses(with({0, 1}, {0, 0, 0}, kMoves, "VEC3"),
