@@ -22,7 +22,8 @@ struct ModelSource {
 };
 
 /// Reads a file of the format that its extension says. Throws InputError.
-ModelSource read_model_source(const std::string& path, const MeshOptions& options, const AnimationWish& animations = {});
+ModelSource read_model_source(const std::string& path, const MeshOptions& options,
+                              const AnimationWish& animations = {});
 
 /// Makes a model of it. Throws InputError when no polygon with an area is in it.
 Model make_model(ModelSource source, const MeshOptions& options);
