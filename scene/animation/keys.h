@@ -31,9 +31,7 @@ struct CameraKeys {
     KeyCurve<glm::dvec3> eye, target, up;
     KeyCurve<double> fov_deg, height;
 
-    bool empty() const {
-        return eye.empty() && target.empty() && up.empty() && fov_deg.empty() && height.empty();
-    }
+    bool empty() const { return eye.empty() && target.empty() && up.empty() && fov_deg.empty() && height.empty(); }
     /// The camera at a frame; `rest` says what has no keys.
     CameraSettings at(double frame, const CameraSettings& rest) const;
 };

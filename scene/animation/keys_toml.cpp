@@ -35,8 +35,8 @@ void for_each_key(TomlReader& t, const std::string& owner, const std::string& na
         const bool has_any = use(key, *frame);
         key.finish();
         if (!has_any) {
-            TomlReader::fail_at(key.position(), owner + ": the key at frame " + text_of_frame(*frame) +
-                                                    " says nothing; give " + names);
+            TomlReader::fail_at(key.position(),
+                                owner + ": the key at frame " + text_of_frame(*frame) + " says nothing; give " + names);
         }
     }
 }
@@ -77,7 +77,8 @@ CameraKeys read_camera_keys(TomlReader& t, const CameraSettings& rest) {
         };
         if (rest.direction) refuse("eye", "an eye cannot stand beside a direction; remove one");
         if (rest.orthographic) refuse("fov", "an orthographic camera has no fov; use height");
-        if (!rest.orthographic) refuse("height", "a perspective camera has no height; use fov, or projection = \"orthographic\"");
+        if (!rest.orthographic)
+            refuse("height", "a perspective camera has no height; use fov, or projection = \"orthographic\"");
         bool any = add_if_given(keys.eye, frame, key.vector("eye"));
         any |= add_if_given(keys.target, frame, key.vector("target"));
         any |= add_if_given(keys.up, frame, key.vector("up"));
@@ -89,8 +90,7 @@ CameraKeys read_camera_keys(TomlReader& t, const CameraSettings& rest) {
 
 std::optional<glm::dvec3> read_scale(TomlReader& t) {
     if (!t.has("scale")) return std::nullopt;
-    const glm::dvec3 scale =
-        t.is_number("scale") ? glm::dvec3(*t.number("scale", kAnyNumber)) : *t.vector("scale");
+    const glm::dvec3 scale = t.is_number("scale") ? glm::dvec3(*t.number("scale", kAnyNumber)) : *t.vector("scale");
     if (scale.x == 0 || scale.y == 0 || scale.z == 0) t.fail("scale", "must not be zero");
     return scale;
 }

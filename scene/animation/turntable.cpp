@@ -1,9 +1,9 @@
 #include "scene/animation/turntable.h"
 
 #include <algorithm>
-#include <vector>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <vector>
 
 namespace burin {
 namespace {
@@ -19,7 +19,8 @@ PointSource sphere_points(const glm::dvec3& center, double radius, const glm::dm
             points.push_back(center + radius * along);
             points.push_back(center + radius * side * axes[axis]);
             // Where planes through the eye touch the sphere.
-            if (axis < 2) points.push_back(center + radius * glm::normalize(side * axes[axis] + slopes[axis] * axes[2]));
+            if (axis < 2)
+                points.push_back(center + radius * glm::normalize(side * axes[axis] + slopes[axis] * axes[2]));
         }
     }
     return [points](const PointVisitor& visit) { visit(points); };
@@ -34,8 +35,7 @@ double degrees_at(const Turntable& turntable, double frame) {
 Camera turned(const Camera& camera, const Turntable& turntable, const glm::dvec3& target, double frame) {
     const double degrees = degrees_at(turntable, frame);
     if (degrees == 0) return camera;
-    const glm::dmat3 turn(
-        glm::rotate(glm::dmat4(1.0), glm::radians(degrees), glm::normalize(turntable.axis)));
+    const glm::dmat3 turn(glm::rotate(glm::dmat4(1.0), glm::radians(degrees), glm::normalize(turntable.axis)));
     Camera result = camera;
     for (int column = 0; column < 3; ++column)
         result.to_world[column] = glm::dvec4(turn * glm::dvec3(camera.to_world[column]), 0.0);
