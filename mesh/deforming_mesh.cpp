@@ -6,6 +6,7 @@
 
 #include "base/interrupt.h"
 #include "mesh/edge_links.h"
+#include "mesh/flat_triangles.h"
 #include "mesh/moving_vertices.h"
 #include "mesh/round_positions.h"
 #include "mesh/subdivide.h"
@@ -40,6 +41,7 @@ DeformingMesh::DeformingMesh(PolygonSoup soup, std::vector<std::uint32_t> kinds,
     if (built.empty()) return;
     rest_ = std::move(built.front());
     topology_ = *rest_;
+    lend_normals_to_flat_triangles(*rest_);
     topology_.positions.clear();
     topology_.residuals.clear();
     topology_.borders = BorderIndex();
@@ -77,6 +79,7 @@ Mesh DeformingMesh::at(const std::vector<glm::dvec3>& positions) const {
         add_sources(sources.subspan(control_vertices), mesh);
     }
     mesh.borders = index_borders(mesh);
+    lend_normals_to_flat_triangles(mesh);
     return mesh;
 }
 

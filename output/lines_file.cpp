@@ -240,12 +240,15 @@ KeptSurface kept_surface(const Film& film) {
     return surface;
 }
 
-void write_lines_file(ByteSink& file, const FoundLines& lines, const KeptSurface& surface) {
+void write_lines_file(ByteSink& file, const FoundLines& lines, const KeptSurface& surface,
+                      const std::string& fingerprint) {
     ArrayWriter out;
     add_pieces(lines, out);
     add_chains(lines, out);
     add_picture(lines, surface, out);
-    out.write(file, metadata_of(lines, surface));
+    std::map<std::string, std::string> metadata = metadata_of(lines, surface);
+    if (!fingerprint.empty()) metadata["fingerprint"] = fingerprint;
+    out.write(file, metadata);
 }
 
 }  // namespace burin

@@ -12,6 +12,7 @@
 #include "scene/animation/frame_list.h"
 #include "scene/animation/frame_pattern.h"
 #include "scene/animation/keys_toml.h"
+#include "scene/animation/table_hash.h"
 #include "scene/color.h"
 #include "scene/gbuffer_toml.h"
 #include "scene/lines_toml.h"
@@ -381,7 +382,9 @@ void use_sheet(SceneDescription& scene, std::shared_ptr<const StyleSheet> sheet)
 
 SceneDescription read_scene_tables(const toml::table& tables, const ScenePlace& place, SceneParts parts,
                                    const SheetWishes& wishes) {
-    return SceneReader(place, TomlReader(tables, "", place.name), wishes).read(parts);
+    SceneDescription description = SceneReader(place, TomlReader(tables, "", place.name), wishes).read(parts);
+    description.hash = hash_of_scene_tables(tables);
+    return description;
 }
 
 toml::table parse_scene_text(std::string_view text, const std::string& name) {

@@ -83,15 +83,24 @@ class SceneAnimation {
     double fps = 24;
     std::vector<AnimationsOfFile> files;  ///< if they were asked for, those that have animations
 
-    /// Whether there is anything that at() would change.
-    bool moves() const { return objects_move() || cameras_move() || !models.empty(); }
+    /// Whether there is anything that at() would change: of objects and meshes, or at all.
+    bool moves_objects() const { return !models.empty() || has_moving_objects(); }
+    bool moves() const { return moves_objects() || has_moving_cameras(); }
     /// The scene at a frame, which may be any number. Any threads may call it at once. Throws InputError.
     SceneChange at(double frame) const;
+    /// The same without asking models: what moves within them is as at rest. It costs little.
+    SceneChange places_at(double frame) const;
+    /// Files that are read for this frame alone.
+    std::vector<std::string> files_at(double frame) const;
 
   private:
-    bool objects_move() const;
-    bool cameras_move() const;
+    SceneChange change_at(double frame, bool asks_models) const;
+    bool has_moving_objects() const;
+    bool has_moving_cameras() const;
 };
+
+/// The points of a scene, which is as it was loaded, at all these frames; at rest, if there are none. It borrows both.
+PointSource points_of_frames(const Scene& scene, const SceneAnimation& animation, std::vector<double> frames);
 
 /// Puts a frame into the scene that the animation was loaded with.
 void apply(SceneChange&& change, Scene& scene);

@@ -87,15 +87,26 @@ GltfParts moving_parts() {
     const std::size_t keys = kFrames + 1;
     const std::string times = std::to_string(a.add(floats(per_frame([](double t) { return std::vector{t}; })), "SCALAR",
                                                    5126, keys, R"("min": [0], "max": [1])"));
-    const std::string root_turns =
-        add_keys("VEC4", per_frame([](double t) { return turned(70 * t * t, {0.2, 1, 0.3}); }), keys);
-    const std::string tip_turns = add_keys("VEC4", per_frame([](double t) { return turned(-110 * t, {1, 0, 0}); }), keys);
-    const std::string root_moves =
-        add_keys("VEC3", per_frame([](double t) { return std::vector{t, std::sin(3 * t), -t * t}; }), keys);
-    const std::string plate_sizes =
-        add_keys("VEC3", per_frame([](double t) { return std::vector{1 + t, 1 - 0.5 * t, 2.0}; }), keys);
-    const std::string plate_weights =
-        add_keys("SCALAR", per_frame([](double t) { return std::vector{t, 0.5 - 0.5 * std::cos(4 * t)}; }), 2 * keys);
+    const std::string root_turns = add_keys("VEC4", per_frame([](double t) {
+                                                return turned(70 * t * t, {0.2, 1, 0.3});
+                                            }),
+                                            keys);
+    const std::string tip_turns = add_keys("VEC4", per_frame([](double t) {
+                                               return turned(-110 * t, {1, 0, 0});
+                                           }),
+                                           keys);
+    const std::string root_moves = add_keys("VEC3", per_frame([](double t) {
+                                                return std::vector{t, std::sin(3 * t), -t * t};
+                                            }),
+                                            keys);
+    const std::string plate_sizes = add_keys("VEC3", per_frame([](double t) {
+                                                 return std::vector{1 + t, 1 - 0.5 * t, 2.0};
+                                             }),
+                                             keys);
+    const std::string plate_weights = add_keys("SCALAR", per_frame([](double t) {
+                                                   return std::vector{t, 0.5 - 0.5 * std::cos(4 * t)};
+                                               }),
+                                               2 * keys);
     GltfParts parts;
     a.put_into(parts);
     parts.scenes = R"([{"nodes": [0, 1, 3]}])";

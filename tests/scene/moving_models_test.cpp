@@ -28,8 +28,7 @@ std::string sliding_gltf() {
     a.add(floats({0, 0, 0, 8, 0, 0}), "VEC3", 5126, 2);
     a.add(floats({0, 0, 0, 0, 8, 0}), "VEC3", 5126, 2);
     a.add(floats({0, 1}), "SCALAR", 5126, 2);
-    GltfParts parts =
-        gltf_of(a, R"({"attributes": {"POSITION": 0}, "targets": [{"POSITION": 1}]})");
+    GltfParts parts = gltf_of(a, R"({"attributes": {"POSITION": 0}, "targets": [{"POSITION": 1}]})");
     parts.nodes = R"([{"mesh": 0, "children": [1]}, {"camera": 0, "translation": [0, 0, 9]}])";
     parts.cameras = R"([{"type": "perspective", "perspective": {"yfov": 1}}])";
     const std::string slide = R"({"name": "Slide", "samplers": [{"input": 2, "output": 3}, {"input": 2, "output": 5}],)"
@@ -195,12 +194,14 @@ TEST_F(MovingModels, OtherPolygonsAreHeldUntilTheNextFile) {
 
 TEST_F(MovingModels, ObjectsOfASequenceAreFoundByName) {
     folder_.write("a.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
-    folder_.write("walk.0001.obj",
-                  "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\no left\nusemtl red\nf 1 2 3\no right\nusemtl blue\n"
-                  "f 2 3 4\n");
-    folder_.write("walk.0002.obj",
-                  "mtllib a.mtl\nv 0 0 5\nv 1 0 5\nv 0 1 5\nv 1 1 5\no right\nusemtl blue\nf 2 3 4\no left\nusemtl red\n"
-                  "f 1 2 3\n");
+    folder_.write(
+        "walk.0001.obj",
+        "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\no left\nusemtl red\nf 1 2 3\no right\nusemtl blue\n"
+        "f 2 3 4\n");
+    folder_.write(
+        "walk.0002.obj",
+        "mtllib a.mtl\nv 0 0 5\nv 1 0 5\nv 0 1 5\nv 1 1 5\no right\nusemtl blue\nf 2 3 4\no left\nusemtl red\n"
+        "f 1 2 3\n");
     folder_.write("walk.0003.obj", "v 0 0 7\nv 1 0 7\nv 0 1 7\no right\nf 1 2 3\n");
     folder_.write("walk.0004.obj", "v 0 0 7\nv 1 0 7\nv 0 1 7\no walk_0004\nf 1 2 3\n");
     AnimatedScene loaded = load("[[object]]\nfile = 'walk.####.obj'\n", 1);
@@ -245,8 +246,8 @@ TEST_F(MovingModels, PatternsFindNumbersInNames) {
     EXPECT_EQ(pattern.number_in("walk.0012.obj"), 12);
     EXPECT_EQ(pattern.number_in("walk.12345.obj"), 12345);
     EXPECT_EQ(pattern.number_in("walk.-0003.obj"), -3);
-    for (const char* other : {"walk.12.obj", "walk.00012.obj", "walk..obj", "walk.obj", "walk.0012.ply", "talk.0012.obj",
-                              "walk.00x2.obj", "walk.0012.obj~", ""}) {
+    for (const char* other : {"walk.12.obj", "walk.00012.obj", "walk..obj", "walk.obj", "walk.0012.ply",
+                              "talk.0012.obj", "walk.00x2.obj", "walk.0012.obj~", ""}) {
         EXPECT_EQ(pattern.number_in(other), std::nullopt) << other;
     }
 }
