@@ -50,7 +50,8 @@ void write_vector(JsonWriter& json, const char* key, const glm::dvec3& v) {
     json.key(key).begin_array().value(v.x).value(v.y).value(v.z).end_array();
 }
 
-std::string info_json(const Scene& scene, const std::string& input, const Totals& t) {
+std::string info_json(const Scene& scene, const std::vector<AnimationsOfFile>& animations, const std::string& input,
+                      const Totals& t) {
     JsonWriter json;
     json.begin_object();
     json.key("file").value(input);
@@ -114,8 +115,35 @@ std::string info_json(const Scene& scene, const std::string& input, const Totals
         if (!c.orthographic) json.key("fov_deg").value(c.fov_deg);
         json.end_object();
     }
+    json.end_array();
+    json.key("animations").begin_array();
+    for (const AnimationsOfFile& of_file : animations) {
+        for (const AnimationSummary& animation : of_file.animations) {
+            json.begin_object().key("file").value(of_file.file);
+            json.key("name").value(animation.name);
+            json.key("seconds").value(animation.seconds);
+            json.key("channels").value(animation.channels);
+            json.end_object();
+        }
+    }
     json.end_array().end_object();
     return json.text();
+}
+
+/// The animations of each file, which are many at times.
+void print_animations(const std::vector<AnimationsOfFile>& animations) {
+    constexpr std::size_t kMostListed = 50;
+    for (const AnimationsOfFile& of_file : animations) {
+        const std::size_t count = of_file.animations.size();
+        for (std::size_t i = 0; i < count && i < kMostListed; ++i) {
+            const AnimationSummary& animation = of_file.animations[i];
+            const std::string name =
+                animation.name.empty() ? "(unnamed)" : "\"" + printable(animation.name, 200) + "\"";
+            std::printf("  animation %zu  %s: %.6g s, %llu channels, of %s\n", i, name.c_str(), animation.seconds,
+                        static_cast<unsigned long long>(animation.channels), printable(of_file.file, 4000).c_str());
+        }
+        if (count > kMostListed) std::printf("  ... and %zu more; --json lists all\n", count - kMostListed);
+    }
 }
 
 void print_info(const Scene& scene, const std::string& input, const Totals& t) {
@@ -164,12 +192,14 @@ void print_info(const Scene& scene, const std::string& input, const Totals& t) {
 }  // namespace
 
 void run_info(const Arguments& a) {
-    const Scene scene = load_input(a);
+    std::vector<AnimationsOfFile> animations;
+    const Scene scene = load_scene_of(a, {}, &animations);
     const Totals totals = count(scene);
     if (a.json) {
-        std::fputs(info_json(scene, a.input, totals).c_str(), stdout);
+        std::fputs(info_json(scene, animations, a.input, totals).c_str(), stdout);
     } else {
         print_info(scene, a.input, totals);
+        print_animations(animations);
     }
 }
 

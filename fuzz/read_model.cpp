@@ -1,5 +1,5 @@
 // Reads its input as a model of the format BURIN_FUZZ_KIND. Anything must end in a model or in an
-// InputError. An input of kind "mtl" is the material file of a small OBJ.
+// InputError. An input of kind "mtl" is the material file of a small OBJ. Animations of glTF are played.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "fuzz/scratch_folder.h"
 #include "mesh/model.h"
+#include "mesh/model_player.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static constexpr std::string_view kKind = BURIN_FUZZ_KIND;
@@ -19,7 +20,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     try {
         burin::MeshOptions options;
         if (size % 2 == 1) options.attributes = burin::AttributeWish::all();
-        burin::read_model(path, options);
+        burin::AnimationWish animations;
+        animations.plays = animations.lists = kKind == "gltf" || kKind == "glb";
+        const burin::Model model = burin::read_model(path, options, animations);
+        if (model.player) {
+            for (const double time_s : {-1.0, 0.0, 0.3, 0.5, 1.0, 1e9}) model.player->at(time_s);
+        }
     } catch (const burin::InputError&) {
     }
     return 0;

@@ -15,6 +15,7 @@
 #include "mesh/duplicate_polygons.h"
 #include "mesh/edge_links.h"
 #include "mesh/marked_edges.h"
+#include "mesh/moving_vertices.h"
 #include "mesh/object_collector.h"
 #include "mesh/repeated_edges.h"
 #include "mesh/round_positions.h"
@@ -65,10 +66,7 @@ void triangulate_into(const PolygonMesh& polygons, Mesh& mesh) {
             mesh.triangles.push_back({polygon[a], polygon[b], polygon[c]});
             mesh.triangle_polygon.push_back(i);
         }
-        glm::dvec3 normal = area_vector(corners);
-        if (normal == glm::dvec3(0.0)) normal = normal_of_any_corners(corners);  // a figure of eight
-        const double length = glm::length(normal);
-        mesh.polygon_normals.emplace_back(length > 0 ? normal / length : normal);
+        mesh.polygon_normals.push_back(polygon_normal(corners));
     }
 }
 
@@ -99,8 +97,9 @@ void triangulate_and_link(const PolygonMesh& polygons, Mesh& mesh) {
 }
 
 /// `has_marks`: gets which of the marked edges are edges of the polygons. `attributes`: nullptr: there are none.
+/// `moving`: gets where vertices come from.
 Mesh finish_mesh(PolygonMesh polygons, const MeshOptions& options, Mesh mesh, std::vector<bool>& has_marks,
-                 AttributeCarrier* attributes = nullptr) {
+                 AttributeCarrier* attributes = nullptr, MovingVertices* moving = nullptr) {
     triangulate_and_link(polygons, mesh);
     const std::vector<std::uint32_t> duplicates = find_duplicates(polygons, mesh);
     mesh.repairs.duplicate_polygons = duplicates.size();
@@ -109,8 +108,10 @@ Mesh finish_mesh(PolygonMesh polygons, const MeshOptions& options, Mesh mesh, st
         polygons = without(polygons, duplicates);
         mesh.input_order.drop(duplicates);
     }
+    if (moving != nullptr) moving->sources = polygons.source_vertices;
     if (is_subdivided) {
         has_marks = marks_of_polygons(polygons);
+        if (moving != nullptr) moving->control = polygons;
         polygons = subdivide(polygons, options.scheme, options.subdivision_levels, mesh.name);
     }
     if (!duplicates.empty() || is_subdivided) triangulate_and_link(polygons, mesh);
@@ -181,14 +182,36 @@ InputOrder put_in_order(const PolygonSoup& soup, const SpatialOrder& spatial, st
     return InputOrder(std::move(order), {});
 }
 
+/// Keeps vertices apart that do not move alike. `first`: as weld_vertices() has it.
+void keep_kinds_apart(const std::vector<std::uint32_t>& kinds, std::vector<std::uint32_t>& first) {
+    std::vector<std::uint32_t> order(first.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto key = [&](std::uint32_t v) { return std::pair(first[v], kinds[v]); };
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t u, std::uint32_t v) { return std::pair(key(u), u) < std::pair(key(v), v); });
+    std::vector<std::uint32_t> result(first.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        result[order[i]] = i > 0 && key(order[i - 1]) == key(order[i]) ? result[order[i - 1]] : order[i];
+    }
+    first = std::move(result);
+}
+
 }  // namespace
 
-std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
+glm::vec3 polygon_normal(std::span<const glm::dvec3> corners) {
+    glm::dvec3 normal = area_vector(corners);
+    if (normal == glm::dvec3(0.0)) normal = normal_of_any_corners(corners);  // a figure of eight
+    const double length = glm::length(normal);
+    return glm::vec3(length > 0 ? normal / length : normal);
+}
+
+std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options, MovingVertices* moving) {
     count_subdivision(soup, options);
     RoundedPositions rounded = round_positions(soup);
     std::vector<glm::vec3>& positions = rounded.positions;
     throw_if_interrupted();
     std::vector<std::uint32_t> welded = weld_vertices(rounded);
+    if (moving != nullptr) keep_kinds_apart(moving->kinds, welded);
     std::vector<Mesh> meshes;
     const auto empty_mesh = [&](std::size_t object) {
         Mesh mesh;
@@ -197,7 +220,7 @@ std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
         return mesh;
     };
     const bool is_subdivided = options.subdivision_levels > 0;  // which numbers polygons anew
-    if (has_only_triangles(soup) && rounded.residuals.empty() && soup.attributes.empty()) {
+    if (moving == nullptr && has_only_triangles(soup) && rounded.residuals.empty() && soup.attributes.empty()) {
         Mesh mesh = empty_mesh(0);
         // Memory that is done with is given back at once: fresh memory costs more than the work on it.
         release(soup.positions);
@@ -218,7 +241,7 @@ std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
     }
     std::optional<SpatialOrder> spatial;
     MarkedEdges marks(soup, welded);
-    ObjectCollector collector(soup, positions, rounded.residuals, welded, marks);
+    ObjectCollector collector(soup, positions, rounded.residuals, welded, marks, moving);
     std::optional<AttributeCarrier> attributes;
     if (!soup.attributes.empty()) attributes.emplace(soup, welded);
     std::vector<std::uint32_t> objects;  // of the meshes
@@ -239,8 +262,8 @@ std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
         mesh.input_order.drop(dropped);
         if (!cut.empty()) note_cut_polygons(cut[object], mesh.repairs);
         std::vector<bool> has_marks;
-        meshes.push_back(
-            finish_mesh(std::move(polygons), options, std::move(mesh), has_marks, attributes ? &*attributes : nullptr));
+        meshes.push_back(finish_mesh(std::move(polygons), options, std::move(mesh), has_marks,
+                                     attributes ? &*attributes : nullptr, moving));
         for (std::size_t i = 0; i < has_marks.size(); ++i) {
             if (has_marks[i]) marks.note_polygon_has(collector.collected_marks()[i]);
         }
@@ -262,7 +285,7 @@ std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options) {
         while (last < loose.size() && loose[last].object == object) ++last;
         take_up_to(object);
         if (next_mesh == 0 || objects[next_mesh - 1] != object) all.push_back(empty_mesh(object));
-        add_loose_edges(std::span(loose).subspan(first, last - first), rounded, all.back());
+        add_loose_edges(std::span(loose).subspan(first, last - first), rounded, all.back(), moving);
     }
     take_up_to(kNoObject);
     return all;

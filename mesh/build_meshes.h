@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "base/model_budget.h"
@@ -10,6 +12,8 @@
 // Polygons as they stand in a file become meshes, in one order of steps.
 
 namespace burin {
+
+struct MovingVertices;
 
 struct MeshOptions {
     int subdivision_levels = 0;
@@ -40,6 +44,11 @@ struct MeshOptions {
 ///
 /// Each object that has polygons or loose edges in the soup gives a mesh of its name, in order; a
 /// mesh whose polygons were all dropped may be empty.
-std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options);
+///
+/// `moving`: of a soup whose vertices will move (`mesh/deforming_mesh.h`); nullptr: they stay.
+std::vector<Mesh> build_meshes(PolygonSoup soup, const MeshOptions& options, MovingVertices* moving = nullptr);
+
+/// The unit normal of a polygon of any shape, from its area vector; 0 if all corners lie on one line.
+glm::vec3 polygon_normal(std::span<const glm::dvec3> corners);
 
 }  // namespace burin

@@ -1,11 +1,13 @@
 #include "mesh/gltf.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <tuple>
 
 #include "base/interrupt.h"
 #include "base/mapped_file.h"
+#include "mesh/gltf_animation.h"
 #include "mesh/gltf_buffers.h"
 #include "mesh/gltf_container.h"
 #include "mesh/gltf_extensions.h"
@@ -22,18 +24,21 @@ namespace {
 /// How a node shows a mesh.
 struct Pose {
     std::optional<std::uint32_t> skin;
-    std::vector<double> weights;  ///< of morph targets; empty: none is added
+    std::vector<double> weights;                ///< of morph targets; empty: none is added
+    std::optional<std::uint32_t> weights_node;  ///< itself, if its weights are animated
 
     auto operator<=>(const Pose&) const = default;
 };
 
 class GltfReader {
   public:
-    GltfReader(const std::string& path, ModelBudget& budget, bool strict, const AttributeWish& attributes)
+    GltfReader(const std::string& path, ModelBudget& budget, bool strict, const AttributeWish& attributes,
+               const AnimationWish& animations)
         : path_(path),
           budget_(budget),
           strict_(strict),
           attributes_(attributes),
+          animations_(animations),
           file_(path),
           container_(split_gltf_container(path, file_.bytes())),
           json_(parse_gltf_json(path, container_.json)),
@@ -49,11 +54,13 @@ class GltfReader {
         if (nodes_.mesh_nodes.empty()) {
             throw InputError(path_ + ": no node shows a mesh; burin draws the lines of surfaces");
         }
+        read_animations();
         plan_poses();
         count_memory();
         make_meshes();
         place_objects();
         scene_.materials = std::move(materials_.materials);
+        move_cameras();
         scene_.cameras = std::move(nodes_.cameras);
         note_what_is_left_out();
         buffers_->check_are_whole();
@@ -86,6 +93,74 @@ class GltfReader {
         poses_.resize(plans_.size());
     }
 
+    void read_animations() {
+        using By = AnimationChoice::By;
+        const AnimationChoice& choice = animations_.choice;
+        const bool is_named = choice.by == By::name || choice.by == By::number;
+        std::vector<std::string> faults;
+        if (animations_.lists) scene_.animations = list_gltf_animations(root_, *buffers_, faults);
+        if (animations_.plays || is_named) {
+            const std::optional<std::uint32_t> number = chosen_gltf_animation(path_, root_, choice);
+            if (number && animations_.plays) play(*number);
+        }
+        if (animations_.plays && choice.by == By::none) {
+            for (std::uint32_t i = 0; i < root_.size_of("animations"); ++i) {
+                try {
+                    read_gltf_animation(root_, i, nodes_, *buffers_, budget_);
+                } catch (const InputError& error) {
+                    faults.emplace_back(error.what());
+                }
+            }
+        }
+        for (const std::string& fault : faults)  // without the path, which notes get later
+            scene_.notes.push_back(fault.substr(fault.starts_with(path_ + ": ") ? path_.size() + 2 : 0));
+    }
+
+    void play(std::uint32_t number) {
+        GltfMotion& motion = scene_.motion.emplace();
+        motion.rig.animation = read_gltf_animation(root_, number, nodes_, *buffers_, budget_);
+        scene_.notes.insert(scene_.notes.end(), motion.rig.animation.notes.begin(), motion.rig.animation.notes.end());
+        for (std::size_t i = 0; i < root_.size_of("nodes"); ++i)
+            motion.rig.transforms.push_back(read_gltf_transform(root_.at("nodes").element(i)));
+        motion.rig.tree = nodes_.tree;
+        is_moved_ = motion.rig.moved_nodes();
+    }
+
+    void move_cameras() {
+        if (!scene_.motion) return;
+        for (const GltfCamera& camera : nodes_.cameras) scene_.motion->cameras.push_back(camera.node);
+    }
+
+    /// Whether the vertices of a mesh move in this pose.
+    bool deforms(const Pose& pose) const {
+        if (pose.weights_node) return true;
+        if (!pose.skin || is_moved_.empty()) return false;
+        const JsonPlace joints = root_.at("skins").element(*pose.skin).at("joints");
+        for (std::size_t i = 0; i < joints.size(); ++i) {
+            if (is_moved_[joints.element(i).index_below(is_moved_.size(), "node")]) return true;
+        }
+        return false;
+    }
+
+    /// How many morph targets a mesh has that deforms.
+    std::size_t target_count(const Pose& pose) const {
+        return pose.weights_node ? scene_.motion->rig.weights_of(*pose.weights_node)->width : pose.weights.size();
+    }
+
+    /// What moves the vertices of a mesh that deforms. `skin`: nullptr: it has none.
+    GltfMover mover_of(const Pose& pose, const GltfSurface& surface, const GltfSkin* skin) {
+        GltfMover mover{{surface, target_count(pose), skin == nullptr ? 0 : skin->joints.size(), *buffers_},
+                        pose.weights,
+                        pose.weights_node.value_or(GltfMover::kNoNode),
+                        {},
+                        {}};
+        if (skin != nullptr) {
+            mover.joints = skin->joints;
+            mover.inverse_binds = skin->inverse_binds;
+        }
+        return mover;
+    }
+
     JsonPlace node(const GltfMeshNode& shown) const { return root_.at("nodes").element(shown.node); }
 
     Pose pose_of(const GltfMeshNode& shown) const {
@@ -95,6 +170,7 @@ class GltfReader {
         if (place.has("skin")) {
             pose.skin = place.at("skin").index_below(root_.size_of("skins"), "skin");
         }
+        if (scene_.motion && scene_.motion->rig.weights_of(shown.node) != nullptr) pose.weights_node = shown.node;
         return pose;
     }
 
@@ -113,9 +189,19 @@ class GltfReader {
 
     void count_memory() {
         GltfExpansion expansion;
+        std::uint64_t moving_bytes = 0;
         for (std::uint32_t i = 0; i < plans_.size(); ++i) {
             expansion.add_mesh(plans_[i], poses_[i].size());
+            for (const auto& [pose, number] : poses_[i]) {
+                if (!deforms(pose)) continue;
+                const std::uint64_t bytes =
+                    GltfDeformation::most_bytes(plans_[i].vertex_count(), target_count(pose), pose.skin.has_value());
+                moving_bytes += std::min(bytes, UINT64_MAX - moving_bytes);
+            }
         }
+        // What the file has once takes four times its room in it at most.
+        const std::uint64_t own_bytes = saturating_product(buffers_->size_bytes(), 4);
+        budget_.add(moving_bytes > own_bytes ? moving_bytes - own_bytes : 0, path_ + ": what moves its vertices");
         for (const GltfMeshNode& shown : nodes_.mesh_nodes) {
             expansion.add_instances(gltf_instance_count(node(shown), *buffers_).value_or(0));
         }
@@ -142,6 +228,10 @@ class GltfReader {
                     skin = &*known;
                 }
                 GltfSurface posed = pose == poses.back() ? std::move(surface) : surface;
+                if (deforms(*pose)) {
+                    scene_.motion->movers.emplace_back(static_cast<std::uint32_t>(scene_.meshes.size()),
+                                                       mover_of(*pose, posed, skin));
+                }
                 if (skin != nullptr || !pose->weights.empty()) {
                     pose_gltf_mesh(posed, pose->weights, skin, *buffers_);
                 }
@@ -162,11 +252,15 @@ class GltfReader {
                               has_skin ? glm::dmat4(1.0) : nodes_.to_world[shown.node]};
             const auto count = gltf_instance_count(place, *buffers_);
             if (!count) {
+                if (scene_.motion) scene_.motion->objects.push_back({shown.node, has_skin, glm::dmat4(1.0)});
                 scene_.objects.push_back(std::move(object));
                 continue;
             }
             if (has_skin) place.fail("a node with a skin cannot have instances");
-            place_instances(object, read_gltf_instances(place, *buffers_), place);
+            const std::vector<glm::dmat4> matrices = read_gltf_instances(place, *buffers_);
+            place_instances(object, matrices, place);
+            if (!scene_.motion) continue;
+            for (const glm::dmat4& matrix : matrices) scene_.motion->objects.push_back({shown.node, false, matrix});
         }
     }
 
@@ -213,6 +307,7 @@ class GltfReader {
     ModelBudget& budget_;
     bool strict_;
     const AttributeWish& attributes_;
+    const AnimationWish& animations_;
     MappedFile file_;
     GltfContainer container_;
     nlohmann::json json_;
@@ -222,6 +317,7 @@ class GltfReader {
     std::vector<GltfMeshPlan> plans_;        // per glTF mesh
     std::vector<std::uint32_t> first_like_;  // per glTF mesh, the first one that holds the same
     GltfNodes nodes_;
+    std::vector<bool> is_moved_;                      // per node, by the animation; empty: there is none
     std::vector<std::map<Pose, std::size_t>> poses_;  // per glTF mesh, numbered as nodes show them
     std::vector<std::size_t> shown_pose_;             // per node that shows a mesh: the number of its pose
     std::vector<std::size_t> first_soup_;             // per glTF mesh: its first pose in the scene
@@ -230,8 +326,9 @@ class GltfReader {
 
 }  // namespace
 
-GltfScene read_gltf(const std::string& path, ModelBudget& budget, bool strict, const AttributeWish& attributes) {
-    return GltfReader(path, budget, strict, attributes).read();
+GltfScene read_gltf(const std::string& path, ModelBudget& budget, bool strict, const AttributeWish& attributes,
+                    const AnimationWish& animations) {
+    return GltfReader(path, budget, strict, attributes, animations).read();
 }
 
 GltfScene read_gltf(const std::string& path) {

@@ -6,31 +6,6 @@
 namespace burin {
 namespace {
 
-glm::dmat4 local_matrix(const JsonPlace& node) {
-    if (node.has("matrix")) {
-        const JsonPlace numbers = node.at("matrix");
-        if (numbers.size() != 16) numbers.fail("a matrix has 16 numbers");
-        glm::dmat4 matrix;
-        for (std::size_t i = 0; i < 16; ++i) {
-            matrix[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = numbers.element(i).number();
-        }
-        return matrix;
-    }
-    const auto vector = [&](const char* key, glm::dvec4 value, std::size_t size) {
-        if (!node.has(key)) return value;
-        const JsonPlace numbers = node.at(key);
-        if (numbers.size() != size) numbers.fail("needs " + std::to_string(size) + " numbers");
-        for (std::size_t i = 0; i < size; ++i) {
-            value[static_cast<int>(i)] = numbers.element(i).number();
-        }
-        return value;
-    };
-    const glm::dvec4 t = vector("translation", glm::dvec4(0.0), 3);
-    const glm::dvec4 r = vector("rotation", glm::dvec4(0.0, 0.0, 0.0, 1.0), 4);
-    const glm::dvec4 s = vector("scale", glm::dvec4(1.0), 3);
-    return gltf_matrix(glm::dvec3(t), r, glm::dvec3(s));
-}
-
 class NodeWalk {
   public:
     explicit NodeWalk(const JsonPlace& root) : root_(root), count_(root.size_of("nodes")), visited_(count_, false) {
@@ -42,7 +17,7 @@ class NodeWalk {
         if (scene_count > 0) {
             const std::uint32_t number = root_.has("scene") ? root_.at("scene").index_below(scene_count, "scene") : 0;
             const JsonPlace scene = root_.at("scenes").element(number);
-            if (scene.has("nodes")) push_list(scene.at("nodes"), glm::dmat4(1.0), true);
+            if (scene.has("nodes")) push_list(scene.at("nodes"), kNoParent, glm::dmat4(1.0), true);
         } else {
             push_roots();
         }
@@ -57,8 +32,9 @@ class NodeWalk {
     }
 
   private:
+    static constexpr std::uint32_t kNoParent = GltfPlacedNode::kNoParent;
     struct Pending {
-        std::uint32_t node;
+        std::uint32_t node, parent_node;
         glm::dmat4 parent;
         bool is_visible;
     };
@@ -74,13 +50,13 @@ class NodeWalk {
         }
         for (std::size_t i = count_; i-- > 0;) {
             if (is_child[i]) continue;
-            pending_.push_back({static_cast<std::uint32_t>(i), glm::dmat4(1.0), true});
+            pending_.push_back({static_cast<std::uint32_t>(i), kNoParent, glm::dmat4(1.0), true});
         }
     }
 
-    void push_list(const JsonPlace& list, const glm::dmat4& parent, bool is_visible) {
+    void push_list(const JsonPlace& list, std::uint32_t parent_node, const glm::dmat4& parent, bool is_visible) {
         for (std::size_t i = list.size(); i-- > 0;) {  // the first one ends up on top
-            pending_.push_back({list.element(i).index_below(count_, "node"), parent, is_visible});
+            pending_.push_back({list.element(i).index_below(count_, "node"), parent_node, parent, is_visible});
         }
     }
 
@@ -102,14 +78,15 @@ class NodeWalk {
 
     void visit(const Pending& place) {
         const JsonPlace node = root_.at("nodes").element(place.node);
-        const glm::dmat4 to_world = place.parent * local_matrix(node);
+        const glm::dmat4 to_world = place.parent * read_gltf_transform(node).to_parent();
         if (!is_within_reason(to_world)) {
             node.fail("its transform, with those of its parents, is not finite or beyond 1e30");
         }
         result_.to_world[place.node] = to_world;
+        result_.tree.push_back({place.node, place.parent_node});
         const bool is_visible = place.is_visible && is_visible_itself(node);
         if (in_scene_) show(place.node, node, to_world, is_visible);
-        if (node.has("children")) push_list(node.at("children"), to_world, is_visible);
+        if (node.has("children")) push_list(node.at("children"), place.node, to_world, is_visible);
     }
 
     void show(std::uint32_t number, const JsonPlace& node, const glm::dmat4& to_world, bool is_visible) {
@@ -122,7 +99,7 @@ class NodeWalk {
                 ++result_.invisible_mesh_nodes;
             }
         }
-        if (node.has("camera")) read_camera(node, name, to_world);
+        if (node.has("camera")) read_camera(number, node, name, to_world);
     }
 
     static bool is_visible_itself(const JsonPlace& node) {
@@ -131,12 +108,14 @@ class NodeWalk {
         return !extension.has("visible") || extension.at("visible").boolean();
     }
 
-    void read_camera(const JsonPlace& node, const std::string& node_name, const glm::dmat4& to_world) {
+    void read_camera(std::uint32_t node_number, const JsonPlace& node, const std::string& node_name,
+                     const glm::dmat4& to_world) {
         const std::uint32_t number = node.at("camera").index_below(root_.size_of("cameras"), "camera");
         const JsonPlace place = root_.at("cameras").element(number);
         GltfCamera camera;
         camera.name = place.text_or("name", node_name);
         camera.to_world = to_world;
+        camera.node = node_number;
         if (place.at("type").text() == "orthographic") {
             camera.orthographic = true;
             camera.height = 2 * place.at("orthographic").at("ymag").number();
@@ -155,6 +134,32 @@ class NodeWalk {
 };
 
 }  // namespace
+
+glm::dmat4 GltfTransform::to_parent() const { return has_matrix ? matrix : gltf_matrix(translation, rotation, scale); }
+
+GltfTransform read_gltf_transform(const JsonPlace& node) {
+    GltfTransform transform;
+    if (node.has("matrix")) {
+        const JsonPlace numbers = node.at("matrix");
+        if (numbers.size() != 16) numbers.fail("a matrix has 16 numbers");
+        transform.has_matrix = true;
+        for (std::size_t i = 0; i < 16; ++i) {
+            transform.matrix[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = numbers.element(i).number();
+        }
+        return transform;
+    }
+    const auto read = [&](const char* key, auto& value) {
+        if (!node.has(key)) return;
+        const JsonPlace numbers = node.at(key);
+        const auto size = static_cast<std::size_t>(value.length());
+        if (numbers.size() != size) numbers.fail("needs " + std::to_string(size) + " numbers");
+        for (std::size_t i = 0; i < size; ++i) value[static_cast<int>(i)] = numbers.element(i).number();
+    };
+    read("translation", transform.translation);
+    read("rotation", transform.rotation);
+    read("scale", transform.scale);
+    return transform;
+}
 
 GltfNodes read_gltf_nodes(const JsonPlace& root) { return NodeWalk(root).walk(); }
 

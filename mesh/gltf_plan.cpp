@@ -129,6 +129,15 @@ GltfMeshPlan plan_gltf_mesh(const JsonPlace& mesh, std::size_t number, GltfBuffe
     return plan;
 }
 
+std::uint64_t GltfMeshPlan::vertex_count() const {
+    std::vector<std::uint64_t> in_group(group_corners.size(), 0);
+    for (const GltfPrimitive& p : primitives)
+        in_group[p.vertex_group] = uses_few_vertices(*this, p) ? group_corners[p.vertex_group] : p.vertices;
+    std::uint64_t count = 0;
+    for (const std::uint64_t vertices : in_group) count += std::min(vertices, UINT64_MAX - count);
+    return count;
+}
+
 bool uses_few_vertices(const GltfMeshPlan& mesh, const GltfPrimitive& primitive) {
     return primitive.index_size > 0 && !primitive.has_marked_edges() && !primitive.is_draco() &&
            mesh.group_corners[primitive.vertex_group] < primitive.vertices / 2;

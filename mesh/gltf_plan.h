@@ -49,6 +49,9 @@ struct GltfMeshPlan {
     std::uint64_t skipped_without_positions = 0;
     std::uint64_t cut_out_polygons = 0;
     std::uint64_t cut_out_lines = 0;
+
+    /// Of all groups together.
+    std::uint64_t vertex_count() const;
 };
 
 /// Whether an attribute of a primitive, by its name in the file, is one that was asked for.

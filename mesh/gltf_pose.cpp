@@ -4,100 +4,10 @@
 #include <cmath>
 
 #include "base/interrupt.h"
+#include "mesh/gltf_skin_weights.h"
 
 namespace burin {
 namespace {
-
-/// How much a vertex depends on a joint.
-struct Influence {
-    std::uint32_t joint = 0;
-    double weight = 0;
-};
-
-/// The accessors JOINTS_n and WEIGHTS_n of some vertices.
-class SkinWeights {
-  public:
-    SkinWeights(const GltfVertices& vertices, std::size_t joint_count, GltfBuffers& buffers)
-        : attributes_(vertices.place.at("attributes")), joint_count_(joint_count) {
-        for (int n = 0; n == 0 || has("JOINTS_", n) || has("WEIGHTS_", n); ++n) {
-            Set set;
-            set.joints_name = name("JOINTS_", n);
-            set.weights_name = name("WEIGHTS_", n);
-            set.joints = vertices.attribute(set.joints_name.c_str(), "VEC4", buffers);
-            set.weights = vertices.attribute(set.weights_name.c_str(), "VEC4", buffers);
-            set.joints.normalized = false;
-            const std::uint64_t joint = set.joints.component_type;
-            if (joint != kGltfUnsignedByte && joint != kGltfUnsignedShort) {
-                attributes_.at(set.joints_name.c_str()).fail("must be unsigned bytes or shorts");
-            }
-            const std::uint64_t weight = set.weights.component_type;
-            if (weight != kGltfFloat && weight != kGltfUnsignedByte && weight != kGltfUnsignedShort) {
-                attributes_.at(set.weights_name.c_str()).fail("must be floats, or normalized unsigned bytes or shorts");
-            }
-            set.weights.normalized = weight != kGltfFloat;
-            sets_.push_back(std::move(set));
-        }
-    }
-
-    /// The influences on a vertex, by joint, each once: the order in the file must not matter. They sum to 1, or are
-    /// empty if the vertex depends on none.
-    const std::vector<Influence>& of(std::uint64_t element) {
-        influences_.clear();
-        for (const Set& set : sets_) {
-            for (int c = 0; c < 4; ++c) add(set, element, c);
-        }
-        std::sort(influences_.begin(), influences_.end(), [](const Influence& a, const Influence& b) {
-            return a.joint != b.joint ? a.joint < b.joint : a.weight < b.weight;
-        });
-        std::size_t count = 0;
-        double sum = 0;
-        for (const Influence influence : influences_) {
-            sum += influence.weight;
-            if (count > 0 && influences_[count - 1].joint == influence.joint) {
-                influences_[count - 1].weight += influence.weight;
-            } else {
-                influences_[count++] = influence;
-            }
-        }
-        influences_.resize(count);
-        for (Influence& influence : influences_) influence.weight /= sum;
-        return influences_;
-    }
-
-    [[noreturn]] void fail(std::uint64_t element) const {
-        attributes_.at("WEIGHTS_0").fail("the weights of vertex " + std::to_string(element) + " sum to 0");
-    }
-
-  private:
-    struct Set {
-        std::string joints_name, weights_name;
-        GltfAccessor joints, weights;
-    };
-
-    static std::string name(const char* prefix, int n) { return prefix + std::to_string(n); }
-    bool has(const char* prefix, int n) const { return attributes_.has(name(prefix, n).c_str()); }
-
-    void add(const Set& set, std::uint64_t element, int component) {
-        const double weight = set.weights.number(element, component);
-        if (weight == 0) return;
-        if (!(weight > 0 && weight <= kLargestCoordinate)) {
-            attributes_.at(set.weights_name.c_str())
-                .fail("vertex " + std::to_string(element) + " has a weight that is below 0 or not finite");
-        }
-        const auto joint = static_cast<std::uint32_t>(set.joints.number(element, component));
-        if (joint >= joint_count_) {
-            attributes_.at(set.joints_name.c_str())
-                .fail("vertex " + std::to_string(element) + " has joint " + std::to_string(joint) +
-                      ", but its skin has " + std::to_string(joint_count_));
-        }
-        influences_.push_back({joint, weight});
-    }
-
-    JsonPlace attributes_;
-    std::size_t joint_count_;
-    std::vector<Set> sets_;
-    std::vector<Influence> influences_;
-};
 
 /// Adds the targets of some vertices.
 void add_targets(const GltfVertices& vertices, const std::vector<double>& weights, GltfBuffers& buffers,
@@ -112,11 +22,7 @@ void add_targets(const GltfVertices& vertices, const std::vector<double>& weight
         if (weights[t] == 0 || !target.has("POSITION")) continue;
         throw_if_interrupted();
         const JsonPlace reference = target.at("POSITION");
-        const GltfAccessor deltas = buffers.accessor(reference, "VEC3", vertices.elements);
-        if (deltas.count != vertices.elements) {
-            reference.fail("has " + std::to_string(deltas.count) + " elements, but there are " +
-                           std::to_string(vertices.elements) + " positions");
-        }
+        const GltfAccessor deltas = gltf_target(vertices, reference, buffers);
         for (std::uint64_t i = 0; i < vertices.size(); ++i) {
             positions[vertices.first + i] += weights[t] * gltf_position(deltas, vertices.element_of(i), reference);
         }
@@ -125,23 +31,25 @@ void add_targets(const GltfVertices& vertices, const std::vector<double>& weight
 
 void apply_skin(const GltfVertices& vertices, const GltfSkin& skin, const std::vector<bool>& is_used,
                 GltfBuffers& buffers, std::vector<glm::dvec3>& positions) {
-    SkinWeights skin_weights(vertices, skin.joint_matrices.size(), buffers);
+    GltfSkinWeights skin_weights(vertices, skin.joint_matrices.size(), buffers);
     for (std::uint64_t i = 0; i < vertices.size(); ++i) {
         if ((i & 0xFFFF) == 0) throw_if_interrupted();
         const std::size_t v = vertices.first + i;
-        const std::vector<Influence>& influences = skin_weights.of(vertices.element_of(i));
+        const std::vector<GltfInfluence>& influences = skin_weights.of(vertices.element_of(i));
         if (influences.empty()) {
             if (is_used[v]) skin_weights.fail(vertices.element_of(i));
             continue;
         }
         const glm::dvec4 at_rest(positions[v], 1.0);
         glm::dvec3 moved(0.0);
-        for (const Influence& influence : influences) {
+        for (const GltfInfluence& influence : influences) {
             moved += influence.weight * glm::dvec3(skin.joint_matrices[influence.joint] * at_rest);
         }
         positions[v] = moved;
     }
 }
+
+}  // namespace
 
 std::vector<bool> used_vertices(const PolygonSoup& soup) {
     std::vector<bool> is_used(soup.positions.size(), false);
@@ -150,7 +58,14 @@ std::vector<bool> used_vertices(const PolygonSoup& soup) {
     return is_used;
 }
 
-}  // namespace
+GltfAccessor gltf_target(const GltfVertices& vertices, const JsonPlace& reference, GltfBuffers& buffers) {
+    GltfAccessor deltas = buffers.accessor(reference, "VEC3", vertices.elements);
+    if (deltas.count != vertices.elements) {
+        reference.fail("has " + std::to_string(deltas.count) + " elements, but there are " +
+                       std::to_string(vertices.elements) + " positions");
+    }
+    return deltas;
+}
 
 GltfSkin read_gltf_skin(const JsonPlace& skin, const GltfNodes& nodes, GltfBuffers& buffers) {
     GltfSkin result;
@@ -174,6 +89,8 @@ GltfSkin read_gltf_skin(const JsonPlace& skin, const GltfNodes& nodes, GltfBuffe
         if (matrices.count > 0) {
             for (int k = 0; k < 16; ++k) inverse_bind[k / 4][k % 4] = matrices.number(i, k);
         }
+        result.joints.push_back(node);
+        result.inverse_binds.push_back(inverse_bind);
         result.joint_matrices.push_back(nodes.to_world[node] * inverse_bind);
         if (is_within_reason(inverse_bind) && is_within_reason(result.joint_matrices.back())) {
             continue;

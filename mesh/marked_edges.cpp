@@ -64,13 +64,17 @@ std::vector<MarkedEdges::Mark> MarkedEdges::loose_edges() const {
     return loose;
 }
 
-void add_loose_edges(std::span<const MarkedEdges::Mark> edges, const RoundedPositions& rounded, Mesh& mesh) {
+void add_loose_edges(std::span<const MarkedEdges::Mark> edges, const RoundedPositions& rounded, Mesh& mesh,
+                     MovingVertices* moving) {
     constexpr std::uint32_t kNone = 0xFFFFFFFFu;
     using Place = std::array<float, 6>;  // position and residual
     struct Vertex {
         Place place;
+        std::uint32_t kind;  // those that move otherwise are others
         std::uint32_t in_mesh;
+        auto key() const { return std::pair(place, kind); }
     };
+    const auto kind_of = [&](std::uint32_t v) { return moving == nullptr ? 0 : moving->kinds[v]; };
     const auto place_of = [](const auto& vertices, std::size_t v) {
         const glm::vec3 p = vertices.positions[v],
                         r = vertices.residuals.empty() ? glm::vec3(0) : vertices.residuals[v];
@@ -79,28 +83,33 @@ void add_loose_edges(std::span<const MarkedEdges::Mark> edges, const RoundedPosi
     const bool keeps_residuals = !rounded.residuals.empty() && (mesh.positions.empty() || mesh.has_residuals());
     std::vector<Vertex> vertices;  // by place
     for (const MarkedEdges::Mark& edge : edges) {
-        for (const std::uint32_t v : edge.vertices) vertices.push_back({place_of(rounded, v), kNone});
+        for (const std::uint32_t v : edge.vertices) vertices.push_back({place_of(rounded, v), kind_of(v), kNone});
     }
-    std::sort(vertices.begin(), vertices.end(), [](const Vertex& a, const Vertex& b) { return a.place < b.place; });
-    const auto is_same = [](const Vertex& a, const Vertex& b) { return a.place == b.place; };
+    std::sort(vertices.begin(), vertices.end(), [](const Vertex& a, const Vertex& b) { return a.key() < b.key(); });
+    const auto is_same = [](const Vertex& a, const Vertex& b) { return a.key() == b.key(); };
     vertices.erase(std::unique(vertices.begin(), vertices.end(), is_same), vertices.end());
-    const auto find = [&](const Place& place) {
-        const auto it = std::lower_bound(vertices.begin(), vertices.end(), place,
-                                         [](const Vertex& v, const Place& p) { return v.place < p; });
-        return it != vertices.end() && it->place == place ? &*it : nullptr;
+    const auto find = [&](const Place& place, std::uint32_t kind) {
+        const std::pair key(place, kind);
+        const auto it = std::lower_bound(vertices.begin(), vertices.end(), key,
+                                         [](const Vertex& v, const auto& k) { return v.key() < k; });
+        return it != vertices.end() && it->key() == key ? &*it : nullptr;
     };
-    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
-        if (Vertex* const known = find(place_of(mesh, v))) known->in_mesh = v;
+    // What is subdivided stands elsewhere in each frame.
+    const bool has_subdivided = moving != nullptr && moving->control.polygon_count() > 0;
+    for (std::uint32_t v = 0; v < mesh.positions.size() && !has_subdivided; ++v) {
+        const std::uint32_t kind = moving == nullptr ? 0 : moving->kinds[moving->sources[v]];
+        if (Vertex* const known = find(place_of(mesh, v), kind)) known->in_mesh = v;
     }
     for (const MarkedEdges::Mark& edge : edges) {
         std::array<std::uint32_t, 2>& ends = mesh.loose_edges.emplace_back();
         for (std::size_t end = 0; end < 2; ++end) {
             const std::uint32_t v = edge.vertices[end];
-            Vertex& vertex = *find(place_of(rounded, v));
+            Vertex& vertex = *find(place_of(rounded, v), kind_of(v));
             if (vertex.in_mesh == kNone) {
                 vertex.in_mesh = static_cast<std::uint32_t>(mesh.positions.size());
                 mesh.positions.push_back(rounded.positions[v]);
                 if (keeps_residuals) mesh.residuals.push_back(rounded.residuals[v]);
+                if (moving != nullptr) moving->sources.push_back(v);
             }
             ends[end] = vertex.in_mesh;
         }

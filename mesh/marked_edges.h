@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "mesh/moving_vertices.h"
 #include "mesh/polygon_mesh.h"
 #include "mesh/polygon_soup.h"
 #include "mesh/round_positions.h"
@@ -49,8 +50,10 @@ class MarkedEdges {
     std::vector<bool> is_of_polygon_;
 };
 
-/// Gives a mesh the loose edges of its object, with the vertices that it lacks. `rounded`: the soup's.
-void add_loose_edges(std::span<const MarkedEdges::Mark> edges, const RoundedPositions& rounded, Mesh& mesh);
+/// Gives a mesh the loose edges of its object, with the vertices that it lacks. `rounded`: the soup's. `moving`: gets
+/// where these come from; nullptr: nobody asks.
+void add_loose_edges(std::span<const MarkedEdges::Mark> edges, const RoundedPositions& rounded, Mesh& mesh,
+                     MovingVertices* moving = nullptr);
 
 /// Which of a mesh's marked edges are edges of its polygons, before it is triangulated.
 std::vector<bool> marks_of_polygons(const PolygonMesh& polygons);

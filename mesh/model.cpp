@@ -2,14 +2,19 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <new>
+#include <optional>
 #include <sstream>
 #include <utility>
 
 #include "base/error.h"
 #include "base/lower_extension.h"
 #include "base/mapped_file.h"
+#include "mesh/deforming_mesh.h"
 #include "mesh/gltf.h"
+#include "mesh/model_player.h"
+#include "mesh/model_source.h"
 #include "mesh/readers.h"
 #include "mesh/self_crossings.h"
 
@@ -20,6 +25,16 @@ namespace {
 std::vector<Mesh> build_meshes_of(const std::string& path, PolygonSoup soup, const MeshOptions& options) {
     try {
         return build_meshes(std::move(soup), options);
+    } catch (const InputError& error) {
+        throw InputError(path + ": " + error.what());
+    }
+}
+
+/// The same of a mesh that deforms.
+DeformingMesh deforming_mesh_of(const std::string& path, PolygonSoup soup, const GltfMover& mover,
+                                const MeshOptions& options) {
+    try {
+        return DeformingMesh(std::move(soup), mover.deformation.kinds(), options);
     } catch (const InputError& error) {
         throw InputError(path + ": " + error.what());
     }
@@ -69,16 +84,39 @@ Model model_of(const std::string& path, GltfScene scene, const MeshOptions& opti
         }
     }
     note_subdivision(has_attributes, options, scene.notes);
+    std::map<std::size_t, GltfMover*> movers;
+    if (scene.motion) {
+        for (auto& [mesh, mover] : scene.motion->movers) movers[mesh] = &mover;
+    }
+    std::vector<ModelPlayer::Part> parts;
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-        std::vector<Mesh> built = build_meshes_of(path, std::move(scene.meshes[i]), options);
-        if (built.empty()) continue;
-        mesh_number[i] = static_cast<std::uint32_t>(model.meshes.size());
-        model.meshes.push_back(std::move(built.front()));
+        const auto number = static_cast<std::uint32_t>(model.meshes.size());
+        if (const auto mover = movers.find(i); mover != movers.end()) {
+            DeformingMesh surface = deforming_mesh_of(path, std::move(scene.meshes[i]), *mover->second, options);
+            std::optional<Mesh> rest = surface.take_rest();
+            if (!rest) continue;
+            model.meshes.push_back(*std::move(rest));
+            parts.push_back({number, std::move(surface), std::move(*mover->second)});
+        } else {
+            std::vector<Mesh> built = build_meshes_of(path, std::move(scene.meshes[i]), options);
+            if (built.empty()) continue;
+            model.meshes.push_back(std::move(built.front()));
+        }
+        mesh_number[i] = number;
     }
-    for (GltfObject& object : scene.objects) {
+    std::vector<RiggedObject> rigged;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        GltfObject& object = scene.objects[i];
         const std::uint32_t mesh = mesh_number[object.mesh];
-        if (mesh != kNoMesh) model.objects.push_back({std::move(object.name), mesh, object.to_world});
+        if (mesh == kNoMesh) continue;
+        model.objects.push_back({std::move(object.name), mesh, object.to_world});
+        if (scene.motion) rigged.push_back(scene.motion->objects[i]);
     }
+    if (scene.motion) {
+        model.player = std::make_shared<const ModelPlayer>(std::move(scene.motion->rig), std::move(rigged),
+                                                           std::move(scene.motion->cameras), std::move(parts));
+    }
+    model.animations = std::move(scene.animations);
     for (GltfCamera& c : scene.cameras) {
         model.cameras.push_back({std::move(c.name), c.orthographic, c.fov_deg, c.height, c.to_world});
     }
@@ -89,30 +127,43 @@ Model model_of(const std::string& path, GltfScene scene, const MeshOptions& opti
     return model;
 }
 
-Model read_by_extension(const std::string& path, const MeshOptions& options) {
+ModelSource read_by_extension(const std::string& path, const MeshOptions& options, const AnimationWish& animations) {
     const std::string extension = lower_extension(path);
+    ModelSource source{path, PolygonSoup(), {}};
     if (extension == ".obj") {
-        std::vector<std::string> material_files;
-        PolygonSoup soup = read_obj(path, options.threads, &material_files, options.attributes);
+        PolygonSoup soup = read_obj(path, options.threads, &source.other_files, options.attributes);
         if (options.strict && !soup.notes.empty()) {
             throw InputError(path + ": " + soup.notes.front() + "; re-export the model, or leave out --strict");
         }
-        Model model = model_of(path, std::move(soup), options);
-        model.other_files = std::move(material_files);
-        return model;
-    }
-    if (extension == ".ply")
-        return model_of(path, read_ply(path, options.threads, options.strict, options.attributes), options);
-    if (extension == ".stl") return model_of(path, read_stl(path, options.strict), options);
-    if (extension == ".off") return model_of(path, read_off(path, options.strict), options);
-    if (extension == ".gltf" || extension == ".glb") {
+        source.content = std::move(soup);
+    } else if (extension == ".ply") {
+        source.content = read_ply(path, options.threads, options.strict, options.attributes);
+    } else if (extension == ".stl") {
+        source.content = read_stl(path, options.strict);
+    } else if (extension == ".off") {
+        source.content = read_off(path, options.strict);
+    } else if (extension == ".gltf" || extension == ".glb") {
         ModelBudget by_default;
-        return model_of(path,
-                        read_gltf(path, options.budget != nullptr ? *options.budget : by_default, options.strict,
-                                  options.attributes),
-                        options);
+        source.content = read_gltf(path, options.budget != nullptr ? *options.budget : by_default, options.strict,
+                                   options.attributes, animations);
+    } else {
+        throw InputError(path + ": unknown kind of model '" + extension + "'; burin reads " + kModelExtensions);
     }
-    throw InputError(path + ": unknown kind of model '" + extension + "'; burin reads " + kModelExtensions);
+    return source;
+}
+
+/// Calls work(). What is wrong may be the zeros where the file ends now: then that is said.
+template <typename Work>
+auto while_whole(const std::string& path, const Work& work) {
+    const FileLength given(path);
+    try {
+        auto result = work();
+        given.check();
+        return result;
+    } catch (const InputError&) {
+        given.check();
+        throw;
+    }
 }
 
 }  // namespace
@@ -123,16 +174,15 @@ bool is_model_file(const std::string& path) {
     return std::find(std::istream_iterator<std::string>(known), {}, extension) != std::istream_iterator<std::string>();
 }
 
-Model read_model(const std::string& path, const MeshOptions& options) {
-    const FileLength given(path);
-    Model model;
-    try {
-        model = read_by_extension(path, options);
-    } catch (const InputError&) {
-        given.check();  // what was wrong may be the zeros where the file ends now
-        throw;
-    }
-    given.check();
+ModelSource read_model_source(const std::string& path, const MeshOptions& options, const AnimationWish& animations) {
+    return while_whole(path, [&] { return read_by_extension(path, options, animations); });
+}
+
+Model make_model(ModelSource source, const MeshOptions& options) {
+    const std::string path = source.path;
+    Model model =
+        std::visit([&](auto& content) { return model_of(path, std::move(content), options); }, source.content);
+    model.other_files.insert(model.other_files.end(), source.other_files.begin(), source.other_files.end());
     const bool has_any = std::any_of(model.objects.begin(), model.objects.end(), [&](const auto& o) {
         const Mesh& mesh = model.meshes[o.mesh];
         return !mesh.triangles.empty() || !mesh.loose_edges.empty();
@@ -141,6 +191,10 @@ Model read_model(const std::string& path, const MeshOptions& options) {
         throw InputError(path + ": no polygon with an area is in it; burin draws the lines of surfaces");
     }
     return model;
+}
+
+Model read_model(const std::string& path, const MeshOptions& options, const AnimationWish& animations) {
+    return while_whole(path, [&] { return make_model(read_by_extension(path, options, animations), options); });
 }
 
 }  // namespace burin

@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "mesh/animation_choice.h"
 #include "mesh/build_meshes.h"
 #include "mesh/mesh.h"
 #include "mesh/polygon_soup.h"
@@ -13,6 +15,8 @@
 // read.
 
 namespace burin {
+
+class ModelPlayer;
 
 /// A mesh at its place in the model: an object.
 struct ModelObject {
@@ -39,8 +43,10 @@ struct Model {
     std::uint64_t skipped_primitives = 0;   ///< of a glTF: points, and what has no positions
     std::uint64_t non_finite_polygons = 0;  ///< left out, of an STL
     std::vector<std::string> notes;  ///< what the user should know of how the file was read: "path: what", a line each
-    std::vector<std::string> attribute_names;  ///< of the values at vertices that have names, if any were asked for
-    std::vector<std::string> other_files;      ///< that were read beside the model's own: materials, buffers
+    std::vector<std::string> attribute_names;   ///< of the values at vertices that have names, if any were asked for
+    std::vector<std::string> other_files;       ///< that were read beside the model's own: materials, buffers
+    std::shared_ptr<const ModelPlayer> player;  ///< how it moves; nullptr: it does not, or nobody asks
+    std::vector<AnimationSummary> animations;   ///< of the file, if they were asked for
 };
 
 /// The extensions of the formats that read_model can read, as messages list them.
@@ -51,7 +57,7 @@ bool is_model_file(const std::string& path);
 
 /// Reads a file of the format that its extension says (in any case).
 /// Throws InputError when the file cannot be read or no polygon with an area is in it; if `options` are strict, also
-/// where there would be a note.
-Model read_model(const std::string& path, const MeshOptions& options);
+/// where there would be a note. `animations`: what is wanted of them.
+Model read_model(const std::string& path, const MeshOptions& options, const AnimationWish& animations = {});
 
 }  // namespace burin

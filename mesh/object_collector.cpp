@@ -49,7 +49,7 @@ glm::dvec3 normal_of_any_corners(std::span<const glm::dvec3> corners) {
 
 ObjectCollector::ObjectCollector(const PolygonSoup& soup, const std::vector<glm::vec3>& positions,
                                  const std::vector<glm::vec3>& residuals, const std::vector<std::uint32_t>& welded,
-                                 const MarkedEdges& marks)
+                                 const MarkedEdges& marks, const MovingVertices* moving)
     : soup_(soup),
       positions_(positions),
       residuals_(residuals),
@@ -57,7 +57,8 @@ ObjectCollector::ObjectCollector(const PolygonSoup& soup, const std::vector<glm:
       local_(positions.size(), kUnused),
       is_corner_(positions.size(), false),
       is_welded_corner_(positions.size(), false),
-      marks_(marks) {}
+      marks_(marks),
+      moving_(moving) {}
 
 PolygonMesh ObjectCollector::collect(const PolygonsByObject& groups, std::size_t begin, std::size_t end,
                                      MeshRepairs& repairs, std::vector<std::uint32_t>& dropped) {
@@ -71,7 +72,7 @@ PolygonMesh ObjectCollector::collect(const PolygonsByObject& groups, std::size_t
                              " corners, more than 100000; split it");
         }
         collapse(soup_.polygon(polygon), repairs);
-        if (corners_.size() < 3 || has_no_area()) {
+        if (corners_.size() < 3 || (has_no_area() && !may_get_area())) {
             ++repairs.degenerate_polygons;
             dropped.push_back(static_cast<std::uint32_t>(i - begin));
             continue;
@@ -81,9 +82,9 @@ PolygonMesh ObjectCollector::collect(const PolygonsByObject& groups, std::size_t
         if (!soup_.polygon_material.empty()) {
             mesh.polygon_material.push_back(soup_.material_of(polygon));
         }
-        if (!soup_.attributes.empty()) mesh.sources.push_back(static_cast<std::uint32_t>(polygon));
+        if (knows_sources()) mesh.sources.push_back(static_cast<std::uint32_t>(polygon));
     }
-    if (!soup_.attributes.empty()) mesh.source_vertices = used_;
+    if (knows_sources()) mesh.source_vertices = used_;
     if (!residuals_.empty()) {
         for (const std::uint32_t v : used_) mesh.residuals.push_back(residuals_[v]);
     }
@@ -146,6 +147,13 @@ bool ObjectCollector::has_no_area() {
         for (std::size_t i = 0; i < corners_.size(); ++i) places_[i] += glm::dvec3(residuals_[corners_[i]]);
     }
     return normal_of_any_corners(places_) == glm::dvec3(0.0);
+}
+
+/// Whether some corners move otherwise than others.
+bool ObjectCollector::may_get_area() const {
+    return moving_ != nullptr && std::any_of(corners_.begin(), corners_.end(), [&](std::uint32_t v) {
+               return moving_->kinds[v] != moving_->kinds[corners_[0]];
+           });
 }
 
 std::uint32_t ObjectCollector::local_number(std::uint32_t v, PolygonMesh& mesh) {

@@ -9,6 +9,7 @@
 
 #include "mesh/marked_edges.h"
 #include "mesh/mesh.h"
+#include "mesh/moving_vertices.h"
 #include "mesh/polygon_mesh.h"
 #include "mesh/polygon_soup.h"
 
@@ -31,10 +32,10 @@ glm::dvec3 normal_of_any_corners(std::span<const glm::dvec3> corners);
 class ObjectCollector {
   public:
     /// `residuals`: of positions, as Mesh has them. `welded`: per vertex of the soup the number of the first one at its
-    /// place. `marks`: of the soup.
+    /// place. `marks`: of the soup. `moving`: nullptr: the vertices stay where they are.
     ObjectCollector(const PolygonSoup& soup, const std::vector<glm::vec3>& positions,
                     const std::vector<glm::vec3>& residuals, const std::vector<std::uint32_t>& welded,
-                    const MarkedEdges& marks);
+                    const MarkedEdges& marks, const MovingVertices* moving = nullptr);
 
     /// The polygons groups.order[begin, end), which are all of one object. `dropped`: gets the places, from `begin` on,
     /// of those without area.
@@ -50,6 +51,8 @@ class ObjectCollector {
     void add_marks(PolygonMesh& mesh);
     void forget(const PolygonsByObject& groups, std::size_t begin, std::size_t end);
     bool has_no_area();
+    bool may_get_area() const;
+    bool knows_sources() const { return moving_ != nullptr || !soup_.attributes.empty(); }
     std::uint32_t local_number(std::uint32_t v, PolygonMesh& mesh);
 
     const PolygonSoup& soup_;
@@ -62,6 +65,7 @@ class ObjectCollector {
     std::vector<bool> is_corner_, is_welded_corner_;
     std::uint64_t corners_seen_ = 0, welded_corners_seen_ = 0;
     const MarkedEdges& marks_;
+    const MovingVertices* moving_;
     std::vector<std::size_t> collected_marks_;
     std::vector<std::uint32_t> corners_;
     std::vector<glm::dvec3> places_;  // of corners_

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -12,6 +13,9 @@
 #include "base/interrupt.h"
 #include "mesh/model.h"
 #include "mesh/text_scan.h"
+#include "scene/animation/model_sequence.h"
+#include "scene/animation/placeable.h"
+#include "scene/animation/played_model.h"
 #include "scene/missing_attributes.h"
 #include "scene/object_names.h"
 #include "scene/scene_description.h"
@@ -21,23 +25,15 @@
 namespace burin {
 namespace {
 
-bool is_finite(const glm::dmat4& m) {
-    for (int c = 0; c < 4; ++c) {
-        for (int r = 0; r < 4; ++r) {
-            if (!(std::abs(m[c][r]) <= 1e60)) return false;
-        }
-    }
-    return true;
-}
-
 /// A model as it arrived in the scene: where its meshes start, and the scene's materials for its own.
 struct LoadedModel {
     std::vector<ModelObject> objects;
     std::uint32_t first_mesh = 0;
     MaterialList materials;
-    std::uint64_t polygons = 0;    // of all objects
-    std::uint64_t name_bytes = 0;  // of all objects
-    bool is_placed = false;        // at least once
+    std::uint64_t polygons = 0;                  // of all objects
+    std::uint64_t name_bytes = 0;                // of all objects
+    bool is_placed = false;                      // at least once
+    std::size_t motion = SceneAnimation::kNone;  // number among the animation's models
 };
 
 class SceneLoader {
@@ -47,6 +43,8 @@ class SceneLoader {
           threads_(options.threads),
           strict_(options.strict),
           budget_(options.budget),
+          first_frame_(options.first_frame),
+          lists_animations_(options.lists_animations),
           files_read_(files) {
         scene_.materials = from_.materials;
         scene_.cameras = from_.cameras;
@@ -62,6 +60,10 @@ class SceneLoader {
         scene_.gbuffer = from_.gbuffer;
         scene_.zbuffer = from_.zbuffer;
         scene_.wire = from_.wire;
+        may_move_ = std::any_of(from_.objects.begin(), from_.objects.end(), [&](const ObjectDescription& object) {
+            return !object.keys.empty() || (first_frame_ && !object.file.empty());
+        });
+        if (first_frame_ && !from_.frame_range.empty()) first_frame_ = from_.frame_range.front();
         if (from_.sheet) attribute_readers_.sheet = attributes_named_in(*from_.sheet);
         kept_attributes_ = options.keeps_attributes ? AttributeWish::all() : attribute_readers_.sheet;
         if (from_.surfaces.recipe) {
@@ -72,7 +74,7 @@ class SceneLoader {
             material_numbers_.emplace(from_.materials[i].name, i);
     }
 
-    Scene load() {
+    AnimatedScene load() {
         for (const ObjectDescription& object : from_.objects) {
             if (object.file.empty()) at_place_of(object, [&] { count_shape(object); });
         }
@@ -91,17 +93,25 @@ class SceneLoader {
                 }
             });
         }
-        if (scene_.cameras.empty()) scene_.cameras = std::move(file_cameras_);
+        tell_cameras();
         scene_.camera_is_default = scene_.cameras.empty();
         if (scene_.cameras.empty()) scene_.cameras.emplace_back();
         check_highlights();
         draw_lines_without_polygons(scene_);
         for (std::string& note : notes_on_missing_attributes(scene_, attribute_readers_, attribute_names_))
             scene_.notes.push_back(std::move(note));
-        return std::move(scene_);
+        return {std::move(scene_), std::move(animation_)};
     }
 
   private:
+    void tell_cameras() {
+        animation_.fps = from_.frame.fps;
+        for (std::size_t i = 0; i < from_.camera_keys.size(); ++i)
+            animation_.cameras.push_back({.rest = from_.cameras[i], .keys = from_.camera_keys[i]});
+        if (!scene_.cameras.empty()) return;
+        scene_.cameras = std::move(file_cameras_);
+        animation_.cameras = std::move(moving_file_cameras_);
+    }
     void check_highlights() const {
         const ObjectNames names(scene_.zbuffer.highlight_objects);
         std::set<std::string_view> found;
@@ -168,9 +178,14 @@ class SceneLoader {
     LoadedModel& model_of(const ObjectDescription& object) {
         // Without subdivision the scheme changes nothing.
         const SubdivisionScheme scheme = object.subdivide > 0 ? object.scheme : SubdivisionScheme::automatic;
-        std::shared_ptr<LoadedModel>& as_written = files_[{object.file, object.subdivide, scheme}];
+        const auto key = [&](const std::string& file) {
+            // While nothing moves, what says how does not count.
+            const AnimationChoice choice = first_frame_ ? object.animation : AnimationChoice();
+            return std::tuple(file, object.subdivide, scheme, choice, object.frame_offset, object.holds_missing);
+        };
+        std::shared_ptr<LoadedModel>& as_written = files_[key(object.file)];
         if (as_written) return *as_written;
-        std::shared_ptr<LoadedModel>& model = files_[{spelled_one_way(object.file), object.subdivide, scheme}];
+        std::shared_ptr<LoadedModel>& model = files_[key(spelled_one_way(object.file))];
         if (!model) model = std::make_shared<LoadedModel>(read(object, scheme));
         as_written = model;
         return *model;
@@ -185,14 +200,58 @@ class SceneLoader {
         return error ? file : (folder / path.filename()).string();
     }
 
-    LoadedModel read(const ObjectDescription& object, SubdivisionScheme scheme) {
-        Model model =
-            read_model(object.file, {object.subdivide, scheme, &budget_, threads_, strict_, kept_attributes_});
+    /// The pattern of a sequence's files; none: it is one file, whose name may look like a pattern.
+    std::optional<FramePattern> pattern_of(const ObjectDescription& object) const {
+        using Single = FramePattern::SingleHash;
+        std::error_code error;
+        if (std::filesystem::exists(object.file, error)) return std::nullopt;
+        return FramePattern::find(object.file, first_frame_ ? Single::digits : Single::letter);
+    }
+
+    /// Reads the first file of a sequence, and tells its motion.
+    Model load_sequence(const ObjectDescription& object, const FramePattern& pattern, const MeshOptions& options,
+                        std::size_t& motion) {
+        SequenceSettings settings{
+            pattern,
+            object.name.empty() ? std::filesystem::path(object.file).filename().string() : object.name,
+            object.frame_offset,
+            object.holds_missing,
+            options,
+            budget_.limit_bytes()};
+        const auto sequence = std::make_shared<ModelSequence>(std::move(settings));
+        if (!first_frame_ && !lists_animations_) {
+            throw UsageError(object.file + ": is a model per frame; say which with --frames or [frames] range");
+        }
+        const double frame = first_frame_ ? *first_frame_ : sequence->first_frame();
+        Model model = sequence->load(frame);
+        if (first_frame_) motion = add_motion(sequence);
         if (files_read_ != nullptr) {
-            files_read_->push_back(object.file);
+            for (std::string& file : sequence->files_at(frame)) files_read_->push_back(std::move(file));
+        }
+        return model;
+    }
+
+    std::size_t add_motion(std::shared_ptr<const ModelMotion> motion) {
+        animation_.models.push_back({std::move(motion), static_cast<std::uint32_t>(scene_.meshes.size())});
+        return animation_.models.size() - 1;
+    }
+
+    LoadedModel read(const ObjectDescription& object, SubdivisionScheme scheme) {
+        const MeshOptions options{object.subdivide, scheme, &budget_, threads_, strict_, kept_attributes_};
+        const std::optional<FramePattern> pattern = pattern_of(object);
+        std::size_t motion = SceneAnimation::kNone;
+        Model model =
+            pattern ? load_sequence(object, *pattern, options, motion)
+                    : read_model(object.file, options, {first_frame_.has_value(), lists_animations_, object.animation});
+        if (model.player)
+            motion = add_motion(std::make_shared<PlayedModel>(object.file, model.player, from_.frame.fps));
+        if (!model.animations.empty()) animation_.files.push_back({object.file, std::move(model.animations)});
+        if (files_read_ != nullptr) {
+            if (!pattern) files_read_->push_back(object.file);
             files_read_->insert(files_read_->end(), model.other_files.begin(), model.other_files.end());
         }
-        for (const ModelCamera& c : model.cameras) {
+        for (std::size_t i = 0; i < model.cameras.size(); ++i) {
+            const ModelCamera& c = model.cameras[i];
             CameraSettings camera;
             camera.name = c.name;
             camera.orthographic = c.orthographic;
@@ -200,8 +259,17 @@ class SceneLoader {
             if (c.orthographic) camera.height = c.height;
             camera.to_world = object.to_world * object.instances.front() * c.to_world;
             file_cameras_.push_back(camera);
+            moving_file_cameras_.push_back({.rest = camera,
+                                            .place = {.keys = keys_of(object),
+                                                      .object = object.to_world,
+                                                      .instance = object.instances.front(),
+                                                      .model = motion,
+                                                      .part = i,
+                                                      .own = c.to_world}});
         }
-        return adopt(std::move(model));
+        LoadedModel loaded = adopt(std::move(model));
+        loaded.motion = motion;
+        return loaded;
     }
 
     /// Moves a model's meshes and materials into the scene.
@@ -237,21 +305,37 @@ class SceneLoader {
         if (!object.material.empty()) {
             materials = MaterialList::all_alike(materials.size(), material_numbers_.find(object.material)->second);
         }
+        const std::size_t keys = keys_of(object);
         for (std::size_t i = 0; i < object.instances.size(); ++i) {
             throw_if_interrupted();
-            for (const ModelObject& part : model.objects) {
+            for (std::size_t k = 0; k < model.objects.size(); ++k) {
+                const ModelObject& part = model.objects[k];
                 SceneObject placed;
                 placed.name = name_of(object, part, i);
                 placed.mesh = model.first_mesh + part.mesh;
                 placed.to_world = object.to_world * object.instances[i] * part.to_world;
                 placed.materials = materials;
-                if (!is_finite(placed.to_world)) {
-                    throw InputError("object '" + placed.name +
-                                     "' has a transform that is not finite or far too large");
+                if (!is_placeable(placed.to_world)) throw InputError(not_placeable(placed.name));
+                if (may_move_) {
+                    animation_.objects.push_back({.keys = keys,
+                                                  .object = object.to_world,
+                                                  .instance = object.instances[i],
+                                                  .model = model.motion,
+                                                  .part = k,
+                                                  .own = part.to_world,
+                                                  .name = placed.name});
                 }
                 scene_.objects.push_back(std::move(placed));
             }
         }
+    }
+
+    /// The number of an object's keys.
+    std::size_t keys_of(const ObjectDescription& object) {
+        if (object.keys.empty()) return SceneAnimation::kNone;
+        if (placed_ != &object) animation_.keys.push_back(object.keys);
+        placed_ = &object;
+        return animation_.keys.size() - 1;
     }
 
     static std::string name_of(const ObjectDescription& object, const ModelObject& part, std::size_t instance) {
@@ -268,20 +352,33 @@ class SceneLoader {
     int threads_;
     bool strict_;
     ModelBudget budget_;
+    std::optional<double> first_frame_;
+    bool lists_animations_;
     std::vector<std::string>* files_read_;  // nullptr: nobody asks
     Scene scene_;
     std::map<std::string, std::uint32_t, std::less<>> material_numbers_;  // of those of the scene file
-    std::map<std::tuple<std::string, int, SubdivisionScheme>, std::shared_ptr<LoadedModel>> files_;
+    std::map<std::tuple<std::string, int, SubdivisionScheme, AnimationChoice, double, bool>,
+             std::shared_ptr<LoadedModel>>
+        files_;
     std::uint64_t polygons_ = 0;
     AttributeReaders attribute_readers_;
     AttributeWish kept_attributes_;             // of files
     std::vector<std::string> attribute_names_;  // of all files, if any are kept
     std::vector<CameraSettings> file_cameras_;
+    std::vector<SceneAnimation::MovingCamera> moving_file_cameras_;
+    SceneAnimation animation_;
+    bool may_move_ = false;                      // some object: else their places are not told
+    const ObjectDescription* placed_ = nullptr;  // the last one that has keys
 };
 
 }  // namespace
 
 Scene load_scene(SceneDescription description, const LoadOptions& options, std::vector<std::string>* files) {
+    return SceneLoader(std::move(description), options, files).load().scene;
+}
+
+AnimatedScene load_animated_scene(SceneDescription description, const LoadOptions& options,
+                                  std::vector<std::string>* files) {
     return SceneLoader(std::move(description), options, files).load();
 }
 

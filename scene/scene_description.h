@@ -2,6 +2,7 @@
 
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -9,8 +10,12 @@
 
 #include "base/error.h"
 #include "base/model_budget.h"
+#include "mesh/animation_choice.h"
 #include "mesh/polygon_soup.h"
 #include "mesh/shapes.h"
+#include "scene/animation/keys.h"
+#include "scene/animation/scene_animation.h"
+#include "scene/animation/turntable.h"
 #include "scene/scene.h"
 
 // A scene description is what a scene file says, before any model is loaded.
@@ -24,8 +29,12 @@ struct ObjectDescription {
     Shape shape;       ///< if there is no file
     int subdivide = 0;
     SubdivisionScheme scheme = SubdivisionScheme::automatic;
-    std::string material;  ///< name; empty: the file's own materials
+    std::string material;        ///< name; empty: the file's own materials
+    AnimationChoice animation;   ///< of the file, if it is a glTF
+    double frame_offset = 0;     ///< of a sequence: the number of a frame's file less that of the frame
+    bool holds_missing = false;  ///< of a sequence: where a file is missing, an earlier one is shown
     glm::dmat4 to_world{1.0};
+    ObjectKeys keys;                    ///< they say what to_world is at a frame
     std::vector<glm::dmat4> instances;  ///< each within to_world; never empty
     SourcePosition where;               ///< for messages
 };
@@ -35,8 +44,12 @@ struct SceneDescription {
     std::vector<ObjectDescription> objects;
     std::vector<Material> materials;
     std::vector<CameraSettings> cameras;
+    std::vector<CameraKeys> camera_keys;  ///< one per camera
     PictureSettings picture;
     FrameSettings frame;
+    std::vector<double> frame_range;  ///< the frames that the scene has; empty: it does not say
+    std::optional<Turntable> turntable;
+    std::uint64_t hash = 0;  ///< of what its tables say of all frames (hash_of_scene_tables())
     LineSettings lines;
     std::shared_ptr<const StyleSheet> sheet;
     std::vector<std::string> unread_line_keys;  ///< keys of [lines] that nothing reads beside the sheet
@@ -79,6 +92,10 @@ struct LoadOptions {
     bool strict = false;            ///< refuses a model of which a reader would leave a part out with a note
     bool keeps_attributes = false;  ///< of vertices, all that files have; else what the sheet reads
     ModelBudget budget{};           ///< what shapes, subdivisions and instances may take
+    /// The first frame that is drawn: what moves within models is loaded, and sequences with the file of this frame.
+    /// None: a still, in which models stand as their files put them.
+    std::optional<double> first_frame = std::nullopt;
+    bool lists_animations = false;  ///< of files; then a sequence needs no frame
 };
 
 /// Loads the models that a description names, each file once, and makes its shapes, one after the other. Throws
@@ -86,5 +103,14 @@ struct LoadOptions {
 /// `files`: gets the paths of all files that were read.
 Scene load_scene(SceneDescription description, const LoadOptions& options = {},
                  std::vector<std::string>* files = nullptr);
+
+/// A scene as it is at rest, and how it moves.
+struct AnimatedScene {
+    Scene scene;
+    SceneAnimation animation;
+};
+/// The same with what moves.
+AnimatedScene load_animated_scene(SceneDescription description, const LoadOptions& options = {},
+                                  std::vector<std::string>* files = nullptr);
 
 }  // namespace burin

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "mesh/model.h"
+#include "mesh/model_player.h"
 #include "tests/mesh/gltf_builder.h"
 #include "tests/mesh/mesh_checks.h"
 #include "tests/mesh/model_files.h"
@@ -97,6 +98,17 @@ void mutate(Random& random, std::string& bytes) {
 
 /// Reads many damaged versions of some good files. Each must be read, or refused by an InputError of
 /// one line that starts with the path.
+/// Plays an animation. Whatever it says must be a mesh, or an error.
+void play(const std::string& path, const ModelPlayer& player, const std::string& what) {
+    for (const double time_s : {-1.0, 0.0, 0.3, 1.0, 1e9}) {
+        try {
+            for (const auto& [number, mesh] : player.at(time_s).meshes) test::expect_consistent(mesh, what);
+        } catch (const InputError& error) {
+            throw InputError(path + ": " + error.what());
+        }
+    }
+}
+
 void fuzz(const std::string& extension, const std::vector<std::string>& good_files) {
     const test::TemporaryFolder folder;
     const std::string path = folder.file("model" + extension);
@@ -114,8 +126,11 @@ void fuzz(const std::string& extension, const std::vector<std::string>& good_fil
             try {
                 MeshOptions options;
                 if (trial % 2 == 1) options.attributes = AttributeWish::all();
-                const Model model = read_model(path, options);
+                AnimationWish animations;
+                animations.plays = trial % 3 > 0;
+                const Model model = read_model(path, options, animations);
                 for (const Mesh& mesh : model.meshes) test::expect_consistent(mesh, what);
+                if (model.player) play(path, *model.player, what);
                 ASSERT_FALSE(testing::Test::HasFatalFailure()) << what;
             } catch (const InputError& error) {
                 const std::string message = error.what();
@@ -249,8 +264,18 @@ TEST(FuzzReaders, Gltf) {
     colored.meshes =
         R"([{"primitives": [{"attributes": {"POSITION": 0, "COLOR_0": 4, "_UP": 8, "_WAY": 2}, "indices": 1}]},
         {"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 9}, "indices": 1}, {"attributes": {"POSITION": 0, "COLOR_0": 2}, "mode": 5}]}])";
-    fuzz(".gltf", {GltfParts{}.json(), tree.json(), sparse.json(), posed.json(), colored.json()});
-    fuzz(".glb", {GltfParts{}.as_glb(), tree.as_glb(), sparse.as_glb(), posed.as_glb()});
+    a.add(ByteWriter().add<float>({0, 1}).bytes(), "SCALAR", 5126, 2);
+    a.add(ByteWriter().add<std::int8_t>({0, 0, 0, 127, 0, 90, 0, 90}).bytes(), "VEC4", 5120, 2,
+          R"("normalized": true)");
+    a.add(ByteWriter().add<float>({0, 0, 1, 1, 0, 0}).bytes(), "SCALAR", 5126, 6);
+    GltfParts animated = posed;
+    a.put_into(animated);
+    animated.animations =
+        R"([{"name": "a", "samplers": [{"input": 10, "output": 11}, {"input": 10, "output": 12, "interpolation": "CUBICSPLINE"},
+        {"input": 10, "output": 7, "interpolation": "STEP"}], "channels": [{"sampler": 0, "target": {"node": 1, "path": "rotation"}},
+        {"sampler": 1, "target": {"node": 0, "path": "weights"}}, {"sampler": 2, "target": {"node": 3, "path": "translation"}}]}])";
+    fuzz(".gltf", {GltfParts{}.json(), tree.json(), sparse.json(), posed.json(), colored.json(), animated.json()});
+    fuzz(".glb", {GltfParts{}.as_glb(), tree.as_glb(), sparse.as_glb(), posed.as_glb(), animated.as_glb()});
 }
 
 }  // namespace

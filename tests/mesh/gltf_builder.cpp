@@ -55,6 +55,7 @@ std::string GltfParts::json() const {
     add("nodes", nodes);
     add("cameras", cameras);
     add("skins", skins);
+    add("animations", animations);
     add("meshes", meshes);
     add("materials", materials);
     add("accessors", accessors);

@@ -32,7 +32,7 @@ struct GltfParts {
     std::string buffer_views = R"([{"buffer": 0, "byteLength": 48},)"
                                R"( {"buffer": 0, "byteOffset": 48, "byteLength": 12}])";
     std::string buffers;  ///< empty: `binary` in a data URI
-    std::string materials, cameras, skins, required;
+    std::string materials, cameras, skins, animations, required;
 
     std::string binary = square_positions() + square_indices();
 
