@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/suggestion.h"
+#include "cli/exr_options.h"
 #include "cli/option_values.h"
 #include "cli/page_options.h"
 #include "cli/vector_options.h"
@@ -32,6 +33,7 @@ struct Texts {
         model_memory, stats, bits;
     PageTexts page;
     VectorTexts vector;
+    ExrTexts exr;
     std::string repeat, progress, pixel, background, methods, compare_frames;
     std::vector<std::string> sets;
     int verbose = 0;
@@ -141,8 +143,9 @@ void add_render_options(CLI::App& app, Texts& t) {
     add_file_options(app, t);
     app.add_option(
         "--layers", t.layers,
-        "layers of an EXR: beauty lines Z N ids coverage surface lines_hidden, and lines_NAME of sets of a style "
-        "sheet (default: the first five; lines_hidden with --hidden; those of sets that have one)");
+        "layers of an EXR: beauty lines Z N ids coverage surface lines_hidden line motion, lines_NAME of sets of a "
+        "style sheet, crypto or single CryptoObject CryptoMaterial CryptoLine CryptoLineObject CryptoLineSet "
+        "(default: the first five; lines_hidden with --hidden; those of sets that have one)");
     app.add_option("--save-lines", t.save_lines,
                    "write the lines found to this file .lines, for burin restyle; needs a style sheet");
     app.add_flag("--save-surface", t.save_surface, "keep the filled surfaces in it, too");
@@ -384,18 +387,8 @@ void fill_render_options(const Texts& t, Arguments& a) {
     a.finds_all = t.find == "all";
 }
 
-/// Names, each once, in the order given.
-std::vector<std::string> method_names(std::string_view text) {
-    std::vector<std::string> names;
-    for (const std::string_view part : split(text, ',')) {
-        const std::string name(part);
-        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    }
-    return names;
-}
-
 void fill_compare_options(const Texts& t, Arguments& a) {
-    if (!t.methods.empty()) a.methods = method_names(t.methods);
+    if (!t.methods.empty()) a.methods = names(t.methods);
     if (!t.compare_frames.empty()) a.frames = integer("--frames", t.compare_frames, 2, 1024);
 }
 
@@ -411,6 +404,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     add_paper_options(*render, t);
     add_method_option(*render, t);
     add_render_options(*render, t);
+    add_exr_options(*render, t.exr, true);
     CLI::App* const info = app.add_subcommand("info", "say what is in a scene or a model");
     add_input_options(*info, t);
     info->add_flag("--json", t.json, "as JSON");
@@ -428,6 +422,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     styles->add_flag("-q", t.quiet, "say nothing but errors");
     CLI::App* const restyle = app.add_subcommand("restyle", "draw saved lines in another style");
     add_restyle_options(*restyle, t);
+    add_exr_options(*restyle, t.exr, false);
     CLI::App* const compare =
         app.add_subcommand("compare", "draw a scene with several methods and measure them against the ground truth");
     add_scene_options(*compare, t);
@@ -489,6 +484,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         fill_render_options(t, a);
         fill_page_options(t.page, a);
         fill_vector_options(t.vector, a);
+        fill_exr_options(t.exr, a);
         if (*compare) fill_compare_options(t, a);
         if (*explain) a.pixel = integers<2>("--pixel", t.pixel, ',', "X,Y");
     }

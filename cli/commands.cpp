@@ -32,6 +32,7 @@
 #include "render/close_cracks.h"
 #include "render/copied_objects.h"
 #include "render/layer_names.h"
+#include "render/mattes.h"
 #include "render/picture_notes.h"
 #include "scene/plain_sheet.h"
 
@@ -42,6 +43,7 @@ struct StageTimes {
     double load_s = 0, write_s = 0, total_s = 0;
     RenderStats render;
     std::optional<VectorStats> paths;
+    std::optional<std::uint64_t> crypto_dropped;  // if there are layers of Cryptomatte
 };
 
 /// The median of several renders, stage by stage.
@@ -71,6 +73,7 @@ std::string stats_json(const StageTimes& times, const Frame& frame, const Method
     json.key("fragments").value(times.render.fragments);
     json.key("peak_rss_bytes").value(std::uint64_t{1024} * static_cast<std::uint64_t>(usage.ru_maxrss));
     if (times.paths) add_counts(json, *times.paths);
+    if (times.crypto_dropped) json.key("crypto_dropped").value(*times.crypto_dropped);
     json.key("stages").begin_object();
     json.key("load").value(times.load_s);
     json.key("prepare").value(times.render.prepare_s);
@@ -212,12 +215,21 @@ void draw_by_sheet(Scene& scene) {
     scene.names_lines = true;
 }
 
+/// Refuses layers that only the A-buffer has, of one view.
+void refuse_layers(const LayerSet& layers, const Method& method, std::size_t view_count) {
+    if (!layers.crypto.has_any() && !layers.line && !layers.motion) return;
+    if (method.name != "abuffer")
+        throw UsageError("--layers: method " + std::string(method.name) +
+                         " has no layers crypto, line and motion; use method abuffer");
+    if (view_count > 0) throw UsageError("--views: cannot stand beside layers crypto, line and motion; remove one");
+}
+
 Film make_film(const Frame& frame, const LayerSet& layers, bool in_bands, const std::string& path) {
     try {
         const PixelRect display{0, 0, frame.width, frame.height};
         Film film = in_bands ? Film::in_bands(display, frame.crop, layers, frame.criteria.classes)
                              : Film(display, frame.crop, layers, frame.criteria.classes);
-        if (!film.channels().empty()) return film;
+        if (!film.channels().empty() || film.mattes() != nullptr) return film;
     } catch (const InputError& error) {
         throw InputError(path + ": " + error.what());
     }
@@ -264,11 +276,14 @@ void run_render(const Arguments& a) {
     close_cracks(scene, camera, scene.picture.width, scene.picture.height);
     PreparedScene prepared;
     if (method.name == "abuffer") prepared = prepare_for_abuffer(scene, a.threads, a.memory_bytes > 0);
-    const Frame frame = frame_of(scene, camera, a, &prepared);
+    Frame frame = frame_of(scene, camera, a, &prepared);
     times.load_s = watch.lap();
     note_limits(a, frame, method, has_hidden_lines, output);
 
     LayerSet layers = layers_for(scene, a);
+    refuse_layers(layers, method, views.size());
+    // For line.qi. It changes no picture; a sheet asks for what it needs.
+    if (layers.line && !scene.sheet) frame.needs.tells_invisibility = frame.needs.behind();
     if (output.format != OutputFormat::exr) layers = LayerSet{true, false, false, false, false, false, false, false};
     // An EXR is compressed while it is drawn; but not when times are taken.
     const bool in_bands = output.format == OutputFormat::exr && a.repeat == 0 && views.empty() &&
@@ -277,7 +292,7 @@ void run_render(const Arguments& a) {
     RunOptions run{a.threads, &progress, a.memory_bytes};
     std::optional<BandWriter> writer;
     if (in_bands) {
-        writer.emplace(film, output);
+        writer.emplace(frame, film, output);
         run.finished_band = [&writer](std::size_t band) { writer->write(band); };
     }
     if (!a.save_lines.empty()) {
@@ -327,13 +342,15 @@ void run_render(const Arguments& a) {
         for (const std::string& note : times.render.notes)
             std::fprintf(stderr, "burin: note: %s\n", printable(note, 4000).c_str());
     }
+    WrittenFilm written;
     if (writer) {
-        writer->finish();
+        written = writer->finish();
     } else if (has_paths) {
         write_vector(drawing, a, output);
     } else {
-        write_output(frame, film, output);
+        written = write_output(frame, film, output);
     }
+    if (layers.crypto.has_any()) times.crypto_dropped = written.crypto_dropped;
     times.write_s = times.render.write_s + watch.lap();
     progress.finish();
     times.total_s = a.repeat > 0 ? times.load_s + frame_seconds(times.render) + times.write_s : total.seconds();

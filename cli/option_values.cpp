@@ -31,6 +31,15 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     }
 }
 
+std::vector<std::string> names(std::string_view text) {
+    std::vector<std::string> names;
+    for (const std::string_view part : split(text, ',')) {
+        const std::string name(part);
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+    return names;
+}
+
 bool to_integer(std::string_view text, int& value) {
     std::int64_t wide = 0;
     const char* const end = text.data() + text.size();

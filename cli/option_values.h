@@ -19,6 +19,8 @@ namespace burin::option_values {
 [[noreturn]] void fail(const std::string& option, const std::string& message);
 
 std::vector<std::string_view> split(std::string_view text, char separator);
+/// Reads names with commas between, each once, in the order given.
+std::vector<std::string> names(std::string_view text);
 bool to_integer(std::string_view text, int& value);
 
 double number(const std::string& option, std::string_view text);

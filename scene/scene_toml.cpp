@@ -77,6 +77,7 @@ class SceneReader {
         for (TomlReader& t : root_.tables("object")) read_object(t);
         if (auto t = root_.table("picture")) read_picture(*t);
         if (auto t = root_.table("frames")) read_frames(*t);
+        if (auto t = root_.table("crypto")) read_crypto(*t);
         if (auto t = root_.table("lines")) scene_.lines = read_line_settings(*t);
         read_style();
         if (auto t = root_.table("surfaces")) {
@@ -235,6 +236,15 @@ class SceneReader {
 
     void read_frames(TomlReader& t) {
         scene_.frame.fps = t.number("fps", {0, 1000000, true, false}).value_or(scene_.frame.fps);
+        t.finish();
+    }
+
+    void read_crypto(TomlReader& t) {
+        constexpr int kFewest = 2, kMost = 16;
+        if (const auto ranks = t.integer("ranks", kFewest, kMost)) {
+            if (*ranks % 2 != 0) t.fail("ranks", "must be an even number from 2 to 16");
+            scene_.crypto.ranks = static_cast<int>(*ranks);
+        }
         t.finish();
     }
 
