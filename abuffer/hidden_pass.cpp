@@ -23,7 +23,7 @@ constexpr std::uint32_t kOfTile = 1u << 31;
 
 /// The picture's part whose lines are drawn, and what strokes from beside it reach.
 PixelRect with_margin(const Frame& frame, bool whole_picture) {
-    const PixelRect c = whole_picture ? PixelRect{0, 0, frame.width, frame.height} : frame.crop;
+    const PixelRect c = whole_picture ? frame.reach() : frame.crop;
     const int margin = frame.needs.margin_px();
     return {c.x0 - margin, c.y0 - margin, c.x1 + margin, c.y1 + margin};
 }

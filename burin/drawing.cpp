@@ -132,7 +132,7 @@ burin_picture* picture_of(const burin_drawing& drawing, const char* style, int t
         draw_ink(drawing.frame, inked_lines_of(drawing, style, threads, notes), resolve_thread_count(threads), film);
         film.end_picture();
     }
-    return new burin_picture(std::move(film), drawing.scene.picture, threads, std::move(notes));
+    return new burin_picture(drawing.frame, std::move(film), threads, std::move(notes));
 }
 
 }  // namespace burin
@@ -147,6 +147,8 @@ burin_drawing* burin_find_lines(burin_scene* scene, const burin_view* view, cons
         if (!has_sheet) frame.needs.tells_invisibility = true;  // for the column; a sheet has its own needs
         const int threads = call.given().threads;
         auto drawing = std::make_unique<burin_drawing>(film_of(frame, call.given()));
+        if (drawing->surfaces.mattes() != nullptr || drawing->surfaces.layers().motion)
+            throw UsageError("options.layers: crypto, line and motion are layers of burin_render()");
         LineDrawing found = with_option_names([&] { return find_drawing(frame, call.run(), drawing->surfaces); });
         add_pieces(found.visible(), *drawing);
         add_pieces(found.behind(), *drawing);

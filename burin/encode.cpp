@@ -78,7 +78,7 @@ std::string vector_text(const void* given, OutputFormat format, const char* styl
 
 /// What can be written of a picture in this format.
 void check_layers(const burin_picture& picture, const NamedFormat& format) {
-    if (format.format != OutputFormat::exr && picture.film.image().find("R") == nullptr) {
+    if (format.format != OutputFormat::exr && picture.image().find("R") == nullptr) {
         throw UsageError("the picture has no layer beauty, which this format shows; ask for it by options.layers");
     }
 }
@@ -107,7 +107,7 @@ int burin_encode(const void* picture_or_drawing, const char* format, const char*
             const burin_picture& from = *given;
             check_layers(from, as);
             const std::string name = "picture" + std::string(as.suffix);
-            write_output(file, from.settings, from.film.image(), options_of(from, as, name));
+            write_output(file, from.settings, from.image(), from.exr, options_of(from, as, name));
         }
         auto* const copy = static_cast<uint8_t*>(std::malloc(std::max<std::size_t>(file.bytes().size(), 1)));
         if (copy == nullptr) throw std::bad_alloc();
@@ -136,7 +136,7 @@ int burin_write(const void* picture_or_drawing, const char* format, const char* 
         if (as.format != OutputFormat::exr)
             check_display_writer("picture" + std::string(as.suffix));  // before there is a file
         AtomicFile file(file_path);
-        write_output(file, from.settings, from.film.image(), options);
+        write_output(file, from.settings, from.image(), from.exr, options);
         file.commit();
         return int{BURIN_DONE};
     });

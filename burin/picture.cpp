@@ -16,7 +16,7 @@ namespace burin {
 Film film_of(const Frame& frame, const OptionsInput& options) {
     const LayerSet layers = with_layer_option([&] { return layers_of(*frame.scene, options.layers); });
     Film film(PixelRect{0, 0, frame.width, frame.height}, frame.crop, layers, frame.criteria.classes);
-    if (film.channels().empty()) {
+    if (film.channels().empty() && film.mattes() == nullptr) {
         throw UsageError("options.layers: coverage has a channel per line class, and no class is drawn");
     }
     return film;
@@ -25,7 +25,7 @@ Film film_of(const Frame& frame, const OptionsInput& options) {
 namespace {
 
 const Image& image_with_beauty(const burin_picture& picture) {
-    const Image& image = picture.film.image();
+    const Image& image = picture.image();
     if (image.find("R") == nullptr) {
         throw UsageError("the picture has no layer beauty; ask for it by options.layers");
     }
@@ -57,7 +57,7 @@ burin_picture* burin_render(burin_scene* scene, const burin_view* view, const bu
         const bool is_whole = frame.crop.width() == frame.width && frame.crop.height() == frame.height;
         if (stats.fragments == 0 && is_whole && !has_lines) notes.emplace_back(kNoSurfaceIsSeen);
         notes.insert(notes.end(), stats.notes.begin(), stats.notes.end());
-        return new burin_picture(std::move(film), call.ready().scene().picture, call.given().threads, std::move(notes));
+        return new burin_picture(frame, std::move(film), call.given().threads, std::move(notes));
     });
 }
 
@@ -69,7 +69,7 @@ void burin_picture_free(burin_picture* picture) { delete picture; }
 
 const void* burin_channel(const burin_picture* picture, const char* name, int32_t* type, int32_t size[2]) {
     return guarded_pointer([&]() -> const void* {
-        const Image& image = required(picture, "picture").film.image();
+        const Image& image = required(picture, "picture").image();
         const Channel* const channel = image.find(&required(name, "name"));
         if (channel == nullptr) throw UsageError("the picture has no channel '" + std::string(name) + "'");
         if (type != nullptr) {
@@ -87,7 +87,7 @@ const void* burin_channel(const burin_picture* picture, const char* name, int32_
 
 const char* burin_channel_name(const burin_picture* picture, int index) {
     return guarded_pointer([&]() -> const char* {
-        const std::vector<Channel>& channels = required(picture, "picture").film.image().channels();
+        const std::vector<Channel>& channels = required(picture, "picture").image().channels();
         if (index < 0 || static_cast<std::size_t>(index) >= channels.size()) return nullptr;
         return channels[static_cast<std::size_t>(index)].name.c_str();
     });

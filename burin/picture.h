@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "burin/burin.h"
 #include "burin/view_input.h"
+#include "output/film_files.h"
 #include "render/film.h"
 #include "render/frame.h"
 #include "scene/scene.h"
@@ -26,7 +28,16 @@ struct burin_picture {
     burin::PictureSettings settings;  ///< what is below it
     int threads = 0;                  ///< for encoding, as for drawing
     std::vector<std::string> notes;   ///< what its user should know
+    burin::ExrOptions exr;            ///< what a file says of it
+    /// All channels, where the film has not all of them.
+    std::optional<burin::Image> all_channels;
 
-    burin_picture(burin::Film f, burin::PictureSettings s, int t, std::vector<std::string> n)
-        : film(std::move(f)), settings(std::move(s)), threads(t), notes(std::move(n)) {}
+    burin_picture(const burin::Frame& frame, burin::Film f, int t, std::vector<std::string> n)
+        : film(std::move(f)), settings(frame.scene->picture), threads(t), notes(std::move(n)) {
+        const burin::FilmChannels channels(frame, film);
+        exr = channels.exr_options(frame, {}, t);
+        const burin::PixelRect rows = film.crop();
+        if (channels.adds_any()) all_channels = channels.rows(burin::strip_of(film.image()), rows.y0, rows.y1);
+    }
+    const burin::Image& image() const { return all_channels ? *all_channels : film.image(); }
 };

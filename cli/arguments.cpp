@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/suggestion.h"
+#include "cli/exr_options.h"
 #include "cli/frame_options.h"
 #include "cli/option_values.h"
 #include "cli/page_options.h"
@@ -32,6 +33,7 @@ struct Texts {
     PageTexts page;
     VectorTexts vector;
     FrameTexts frames;
+    ExrTexts exr;
     std::string repeat, progress, pixel, background, methods, compare_frames;
     std::vector<std::string> sets;
     int verbose = 0;
@@ -141,8 +143,9 @@ void add_render_options(CLI::App& app, Texts& t) {
     add_file_options(app, t);
     app.add_option(
         "--layers", t.layers,
-        "layers of an EXR: beauty lines Z N ids coverage surface lines_hidden, and lines_NAME of sets of a style "
-        "sheet (default: the first five; lines_hidden with --hidden; those of sets that have one)");
+        "layers of an EXR: beauty lines Z N ids coverage surface lines_hidden line motion, lines_NAME of sets of a "
+        "style sheet, crypto or single CryptoObject CryptoMaterial CryptoLine CryptoLineObject CryptoLineSet "
+        "(default: the first five; lines_hidden with --hidden; those of sets that have one)");
     app.add_option("--save-lines", t.save_lines,
                    "write the lines found to this file .lines, for burin restyle; needs a style sheet");
     app.add_flag("--save-surface", t.save_surface, "keep the filled surfaces in it, too");
@@ -408,6 +411,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     add_method_option(*render, t);
     add_render_options(*render, t);
     add_frame_options(*render, t);
+    add_exr_options(*render, t.exr, true);
     CLI::App* const info = app.add_subcommand("info", "say what is in a scene or a model");
     add_input_options(*info, t);
     info->add_flag("--json", t.json, "as JSON");
@@ -425,6 +429,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     styles->add_flag("-q", t.quiet, "say nothing but errors");
     CLI::App* const restyle = app.add_subcommand("restyle", "draw saved lines in another style");
     add_restyle_options(*restyle, t);
+    add_exr_options(*restyle, t.exr, false);
     CLI::App* const compare =
         app.add_subcommand("compare", "draw a scene with several methods and measure them against the ground truth");
     add_scene_options(*compare, t);
@@ -488,6 +493,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         fill_vector_options(t.vector, a);
         fill_frame_options(t.frames, a);
         if (*render) a.picture_options = picture_options(*render);
+        fill_exr_options(t.exr, a);
         if (*compare) fill_compare_options(t, a);
         if (*explain) a.pixel = integers<2>("--pixel", t.pixel, ',', "X,Y");
     }

@@ -9,6 +9,7 @@
 #include "base/progress.h"
 #include "cli/page.h"
 #include "lines/line_class.h"
+#include "output/exr_layers.h"
 #include "output/paths/vector_drawing.h"
 #include "render/film.h"
 #include "scene/scene_description.h"
@@ -62,6 +63,9 @@ struct Arguments {
     bool names_paths = true;          ///< paths in vector files have ids and data-*
     bool merges_paths = false;        ///< in vector files, where ends meet
     bool has_vector_options = false;  ///< any of these was given
+    ExrChoice exr;
+    int overscan_px = 0;                   ///< around the picture
+    std::vector<std::string> exr_options;  ///< those of EXR files that were given
     std::vector<Override> overrides;
     int bits = 8;
     int threads = 0;

@@ -1,12 +1,14 @@
 #include <cstdint>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "base/interrupt.h"
 #include "base/json_writer.h"
 #include "cli/commands.h"
 #include "cli/job.h"
 #include "mesh/text_scan.h"
+#include "render/matte_names.h"
 
 namespace burin {
 namespace {
@@ -46,6 +48,19 @@ Totals count(const Scene& scene) {
     return totals;
 }
 
+/// What readers left out, and names that are hard to use in a compositor.
+std::vector<std::string> all_notes(const Scene& scene) {
+    std::vector<std::string> notes = scene.notes;
+    const auto add = [&](const auto& named, const char* what) {
+        std::vector<std::string> names;
+        for (const auto& n : named) names.push_back(n.name);
+        for (const std::string& warning : warnings_on_names(names)) notes.push_back(what + warning);
+    };
+    add(scene.objects, "object ");
+    add(scene.materials, "material ");
+    return notes;
+}
+
 void write_vector(JsonWriter& json, const char* key, const glm::dvec3& v) {
     json.key(key).begin_array().value(v.x).value(v.y).value(v.z).end_array();
 }
@@ -74,7 +89,7 @@ std::string info_json(const Scene& scene, const std::vector<AnimationsOfFile>& a
     json.key("skipped_primitives").value(scene.skipped_primitives);
     json.end_object();
     json.key("notes").begin_array();
-    for (const std::string& note : scene.notes) json.value(note);
+    for (const std::string& note : all_notes(scene)) json.value(note);
     json.end_array();
     json.key("edges").begin_object();
     json.key("total").value(t.edges.edges);
@@ -166,7 +181,7 @@ void print_info(const Scene& scene, const std::string& input, const Totals& t) {
         std::printf("  cut        %llu polygons that pass an edge twice in one direction, into %llu\n",
                     number(t.repairs.cut_polygons), number(t.repairs.cut_pieces));
     }
-    for (const std::string& note : scene.notes) std::printf("  note       %s\n", printable(note, 4000).c_str());
+    for (const std::string& note : all_notes(scene)) std::printf("  note       %s\n", printable(note, 4000).c_str());
     std::printf("  materials  %zu:", scene.materials.size());
     for (const Material& m : scene.materials) {
         std::printf(" %s", m.name.empty() ? "(unnamed)" : printable(m.name, 200).c_str());

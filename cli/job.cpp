@@ -303,7 +303,8 @@ std::vector<ViewOnSheet> views_of(const Scene& scene, const PointSource& points,
 }
 
 PixelRect crop_of(const Arguments& a, int width, int height) {
-    if (!a.crop) return {0, 0, width, height};
+    const int beside = a.overscan_px;
+    if (!a.crop) return {-beside, -beside, width + beside, height + beside};
     const auto [x0, y0, x1, y1] = *a.crop;
     if (!(0 <= x0 && x0 < x1 && x1 <= width && 0 <= y0 && y0 < y1 && y1 <= height)) {
         throw UsageError("--crop: must lie within the image of " + std::to_string(width) + "x" +

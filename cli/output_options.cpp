@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/lower_extension.h"
 #include "base/parallel.h"
+#include "cli/exr_options.h"
 #include "cli/output_files.h"
 #include "scene/animation/frame_pattern.h"
 
@@ -28,11 +29,15 @@ OutputOptions output_options(const Arguments& a) {
             "--output: " + (suffix.empty() ? "the name has no suffix" : "unknown kind of image '" + suffix + "'") +
             "; burin writes " + suffixes_of_formats());
     }
+    refuse_exr_options(a, options.format);
     if (a.command != Command::render && FramePattern::find(options.path, FramePattern::SingleHash::letter))
         throw UsageError("--output: a pattern for frames is for burin render --frames");
     if (writes_stats_file(a) && is_one_file(a.stats, options.path)) {
         throw UsageError("--stats: would overwrite " + options.path + "; give another name");
     }
+    options.exr = a.exr;
+    options.exr.image_counter = a.frame;
+    options.exr.has_camera = a.views.empty();
     options.bits = a.bits;
     options.threads = resolve_thread_count(a.threads);
     return options;

@@ -52,6 +52,7 @@ std::string stats_json(const StageTimes& times, const Frame& frame, const Method
     json.key("fragments").value(times.render.fragments);
     json.key("peak_rss_bytes").value(peak_memory_bytes());
     if (times.paths) add_counts(json, *times.paths);
+    if (times.crypto_dropped) json.key("crypto_dropped").value(*times.crypto_dropped);
     add_stages(json, times);
     json.end_object();
     return json.text();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ struct StageTimes {
     double load_s = 0, write_s = 0, total_s = 0;
     RenderStats render;
     std::optional<VectorStats> paths;
+    std::optional<std::uint64_t> crypto_dropped;  ///< if there are layers of Cryptomatte
 };
 
 /// The median of several renders, stage by stage.

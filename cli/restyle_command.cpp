@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -59,6 +60,8 @@ LayerSet layers_for(const Arguments& a, const Scene& scene, const OutputOptions&
     }
     if (a.layers.depth || a.layers.normal || a.layers.ids)
         throw UsageError("--layers: a file of lines has no Z, N and ids; render has them");
+    if (a.layers.crypto.has_any() || a.layers.line || a.layers.motion)
+        throw UsageError("--layers: a file of lines has no crypto, line and motion; render has them");
     if (a.layers.surface && !has_surface)
         throw UsageError("--layers: the lines were saved without surfaces; render again with --save-surface");
     try {
@@ -119,6 +122,12 @@ void run_restyle(const Arguments& a) {
         frame.crop = {x0, y0, x1, y1};
     }
     frame.surfaces.projection = file.lines.projection;
+    frame.camera.to_world = file.lines.camera_to_world;
+    frame.camera.orthographic = file.lines.projection.orthographic;
+    const double height = frame.height / file.lines.projection.focal_px;
+    frame.camera.height = height;
+    frame.camera.fov_deg = glm::degrees(2 * std::atan(height / 2));
+    scene.frame = {file.lines.frame, file.lines.fps};
     scene.sheet = sheet_as_wished(read_sheet(*source, a.overrides), a, sheet_context_of(frame));
     scene.lines.style.filter = scene.sheet->filter.value_or(file.lines.filter);
     file.lines.light = scene.sheet->light;

@@ -26,13 +26,13 @@ struct Band {
 };
 
 /// What differs between bands of one picture, and from the whole.
-bool is_of_band(const ExrAttribute& a) { return a.name == "dataWindow" || a.name == "chunkCount"; }
+bool is_of_band(const ContainedAttribute& a) { return a.name == "dataWindow" || a.name == "chunkCount"; }
 
 Band open_band(const std::string& path) {
     Band band;
     band.file = std::make_unique<MappedFile>(path);
     band.container = parse_exr_container(path, band.file->bytes());
-    for (const ExrPart& part : band.container.parts) {
+    for (const ContainedPart& part : band.container.parts) {
         if (part.data.y0 != band.data().y0 || part.data.y1 != band.data().y1)
             throw InputError(path + ": its parts have different rows");
     }
@@ -40,12 +40,12 @@ Band open_band(const std::string& path) {
 }
 
 /// An attribute that only one of the parts has, or in which they differ.
-std::optional<std::string_view> first_difference(const ExrPart& a, const ExrPart& b) {
+std::optional<std::string_view> first_difference(const ContainedPart& a, const ContainedPart& b) {
     const std::size_t count = std::max(a.attributes.size(), b.attributes.size());
     for (std::size_t i = 0; i < count; ++i) {
         if (i >= a.attributes.size()) return b.attributes[i].name;
         if (i >= b.attributes.size()) return a.attributes[i].name;
-        const ExrAttribute &x = a.attributes[i], &y = b.attributes[i];
+        const ContainedAttribute &x = a.attributes[i], &y = b.attributes[i];
         if (x.name != y.name || x.type != y.type) return x.name;
         if (!is_of_band(x) && x.value != y.value) return x.name;
     }
@@ -78,7 +78,7 @@ void check_rows(const std::vector<Band>& bands) {
                              "; the rows between are missing");
         }
         if (y < expected) throw InputError(begins + ", which " + above.path() + " has, too");
-        for (const ExrPart& part : bands.front().container.parts) {
+        for (const ContainedPart& part : bands.front().container.parts) {
             if ((y - bands.front().data().y0) % part.rows_per_chunk == 0) continue;
             const int first = bands.front().data().y0;
             throw InputError(begins + ", not at a multiple of " + std::to_string(part.rows_per_chunk) +
@@ -87,7 +87,7 @@ void check_rows(const std::vector<Band>& bands) {
     }
 }
 
-void append_window(std::string& header, const ExrAttribute& window, int last_row) {
+void append_window(std::string& header, const ContainedAttribute& window, int last_row) {
     std::array<std::int32_t, 4> corners{};
     std::memcpy(corners.data(), window.value.data(), sizeof(corners));
     corners[3] = last_row;
@@ -99,7 +99,7 @@ std::string joined_header(const std::vector<Band>& bands, const std::vector<std:
     const ExrContainer& first = bands.front().container;
     std::string header(first.magic_and_version);
     for (std::size_t p = 0; p < first.parts.size(); ++p) {
-        for (const ExrAttribute& a : first.parts[p].attributes) {
+        for (const ContainedAttribute& a : first.parts[p].attributes) {
             header.append(a.name).push_back('\0');
             header.append(a.type).push_back('\0');
             const auto size = static_cast<std::int32_t>(a.value.size());

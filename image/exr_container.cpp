@@ -66,8 +66,8 @@ int rows_of_compression(unsigned char number) {
     return number < rows.size() ? rows[number] : 0;
 }
 
-PixelRect window_of(const ExrPart& part, ByteReader& reader) {
-    const ExrAttribute* const window = part.find("dataWindow");
+PixelRect window_of(const ContainedPart& part, ByteReader& reader) {
+    const ContainedAttribute* const window = part.find("dataWindow");
     if (window == nullptr || window->type != "box2i" || window->value.size() != 16) reader.fail("it has no dataWindow");
     std::array<std::int32_t, 4> corners{};
     std::memcpy(corners.data(), window->value.data(), 16);
@@ -79,11 +79,11 @@ PixelRect window_of(const ExrPart& part, ByteReader& reader) {
     return {corners[0], corners[1], corners[2] + 1, corners[3] + 1};
 }
 
-ExrPart read_header(ByteReader& reader, bool is_named_kind, std::uint32_t version) {
-    ExrPart part;
+ContainedPart read_header(ByteReader& reader, bool is_named_kind, std::uint32_t version) {
+    ContainedPart part;
     while (!reader.take_end_of_header()) {
         if (part.attributes.size() == kMostAttributes) reader.fail("its header has too many attributes");
-        ExrAttribute attribute;
+        ContainedAttribute attribute;
         attribute.name = reader.name("an attribute's name");
         attribute.type = reader.name("an attribute's type");
         const auto size = reader.number<std::int32_t>("an attribute's size");
@@ -92,7 +92,7 @@ ExrPart read_header(ByteReader& reader, bool is_named_kind, std::uint32_t versio
         part.attributes.push_back(attribute);
     }
     part.data = window_of(part, reader);
-    const ExrAttribute* const compression = part.find("compression");
+    const ContainedAttribute* const compression = part.find("compression");
     if (compression == nullptr || compression->value.size() != 1) reader.fail("it has no compression");
     part.rows_per_chunk = rows_of_compression(static_cast<unsigned char>(compression->value[0]));
     if (part.rows_per_chunk == 0) reader.fail("its compression is unknown");
@@ -105,7 +105,7 @@ ExrPart read_header(ByteReader& reader, bool is_named_kind, std::uint32_t versio
 
 /// A chunk as a whole; `number`: of its part.
 std::string_view chunk_at(ByteReader& reader, std::uint64_t place, std::size_t headers_end, bool has_parts,
-                          std::size_t number, const ExrPart& part, int y) {
+                          std::size_t number, const ContainedPart& part, int y) {
     if (place == 0) reader.fail("it is half written: rows from " + std::to_string(y) + " on are missing");
     reader.go_to(0);
     if (place < headers_end || !reader.has(place)) reader.fail("its table of chunks points out of the file");
@@ -135,14 +135,14 @@ std::string_view chunk_at(ByteReader& reader, std::uint64_t place, std::size_t h
 
 }  // namespace
 
-const ExrAttribute* ExrPart::find(std::string_view name) const {
+const ContainedAttribute* ContainedPart::find(std::string_view name) const {
     const auto found =
-        std::find_if(attributes.begin(), attributes.end(), [&](const ExrAttribute& a) { return a.name == name; });
+        std::find_if(attributes.begin(), attributes.end(), [&](const ContainedAttribute& a) { return a.name == name; });
     return found == attributes.end() ? nullptr : &*found;
 }
 
-std::optional<std::string_view> ExrPart::text(std::string_view name) const {
-    const ExrAttribute* const found = find(name);
+std::optional<std::string_view> ContainedPart::text(std::string_view name) const {
+    const ContainedAttribute* const found = find(name);
     if (found == nullptr || found->type != "string") return std::nullopt;
     return found->value;
 }
@@ -165,7 +165,7 @@ ExrContainer parse_exr_container(const std::string& path, std::string_view bytes
 
     std::vector<std::vector<std::uint64_t>> places(file.parts.size());
     for (std::size_t p = 0; p < file.parts.size(); ++p) {
-        const ExrPart& part = file.parts[p];
+        const ContainedPart& part = file.parts[p];
         const auto count =
             static_cast<std::uint64_t>((part.data.height() + part.rows_per_chunk - 1) / part.rows_per_chunk);
         if (!reader.has(count * sizeof(std::uint64_t))) reader.fail("the file ends within its table of chunks");
@@ -173,7 +173,7 @@ ExrContainer parse_exr_container(const std::string& path, std::string_view bytes
     }
     const std::size_t headers_end = reader.position();
     for (std::size_t p = 0; p < file.parts.size(); ++p) {
-        ExrPart& part = file.parts[p];
+        ContainedPart& part = file.parts[p];
         for (std::size_t i = 0; i < places[p].size(); ++i) {
             const int y = part.data.y0 + static_cast<int>(i) * part.rows_per_chunk;
             part.chunks.push_back(chunk_at(reader, places[p][i], headers_end, file.has_parts, p, part, y));

@@ -15,20 +15,20 @@
 namespace burin {
 
 /// An attribute of a header, as bytes of the file.
-struct ExrAttribute {
+struct ContainedAttribute {
     std::string_view name, type, value;
 };
 
 /// A part of scan lines, flat or deep.
-struct ExrPart {
-    std::vector<ExrAttribute> attributes;  ///< in the file's order
+struct ContainedPart {
+    std::vector<ContainedAttribute> attributes;  ///< in the file's order
     PixelRect data;                        ///< data window
     int rows_per_chunk = 1;
     bool is_deep = false;
     std::vector<std::string_view> chunks;  ///< whole ones, with what stands in front of their data, from the top
 
     /// nullptr: the part has none of this name.
-    const ExrAttribute* find(std::string_view name) const;
+    const ContainedAttribute* find(std::string_view name) const;
     /// The text of a string attribute; none: there is no such attribute, or it is no text.
     std::optional<std::string_view> text(std::string_view name) const;
 };
@@ -37,7 +37,7 @@ struct ExrPart {
 struct ExrContainer {
     std::string_view magic_and_version;  ///< 8 bytes
     bool has_parts = false;              ///< the file says that it has several, be there one or more
-    std::vector<ExrPart> parts;
+    std::vector<ContainedPart> parts;
 };
 
 /// Reads headers and tables of a file's bytes, and finds its chunks; checks all of it. `path`: for messages. Throws

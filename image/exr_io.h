@@ -2,27 +2,20 @@
 
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/atomic_file.h"
+#include "image/exr_header.h"
 #include "image/image.h"
 #include "image/image_strip.h"
 
 namespace burin {
 
-struct ExrOptions {
-    int threads = 1;
-    /// Text attributes of the header, in this order. No date goes into it: equal images give equal
-    /// files.
-    std::vector<std::pair<std::string, std::string>> texts;
-};
-
-/// Writes an EXR whose rows come in pieces: one scan-line part, ZIP compressed. The file appears under its name only
-/// when finish() has been called. Everything throws InputError.
+/// Writes an EXR of scan lines whose rows come in pieces. The file appears under its name only when finish() has been
+/// called. Everything throws InputError.
 class ExrWriter {
   public:
-    /// Rows that are compressed together.
+    /// Rows that come together, whatever is compressed together.
     static constexpr int kChunkRows = 16;
 
     ExrWriter(const std::string& path, PixelRect display, PixelRect data, const std::vector<ChannelFormat>& channels,
@@ -32,9 +25,9 @@ class ExrWriter {
               const std::vector<ChannelFormat>& channels, const ExrOptions& options);
     ~ExrWriter();
 
-    /// Compresses rows [y, y + kChunkRows), or what the data window has of them, and writes them as soon as all above
-    /// are. They are within `part`, which has those channels, in that order, and the data window's columns. Each chunk
-    /// once, in any order, at once on as many threads as one likes.
+    /// Compresses rows [y, y + kChunkRows), or what the data window has of them, of all parts, and writes them as soon
+    /// as all above are. They are within `part`, which has those channels, in that order, and the data window's
+    /// columns. Each chunk once, in any order, at once on as many threads as one likes.
     void write_chunk(const ImageStrip& part, int y);
     /// Finishes the file after all chunks, and gives it its name.
     void finish();

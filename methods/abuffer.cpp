@@ -13,6 +13,7 @@
 #include "lines/sharp_edges.h"
 #include "render/line_layout.h"
 #include "render/line_shading.h"
+#include "render/mattes.h"
 #include "shading/ink/ink_lines.h"
 #include "strokes/ink_printer.h"
 #include "strokes/row_printer.h"
@@ -66,6 +67,7 @@ bool abuffer_finishes_in_bands(const Frame& frame) { return !frame.needs.behind(
 
 RenderStats render_abuffer(const Frame& given, const RunOptions& options, Film& film) {
     const Frame frame = with_fading_creases(given);
+    if (film.mattes() != nullptr) film.mattes()->clear();
     RenderStats stats;
     LineDrawing drawing;
     Stopwatch watch;
@@ -105,7 +107,9 @@ FoundLines find_styled_lines(const Frame& given, const RunOptions& options, Film
 
 void draw_found_lines(const Frame& frame, const FoundLines& lines, int threads, Film& film,
                       std::vector<std::string>& notes) {
-    InkedLines inked = ink_lines(lines, *frame.sheet, threads, notes);
+    InkWishes wishes;
+    wishes.origins = film.mattes() != nullptr;
+    InkedLines inked = ink_lines(lines, *frame.sheet, threads, notes, wishes);
     inked.filter = frame.scene->lines.style.filter;
     draw_ink(frame, inked, threads, film);
 }

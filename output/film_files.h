@@ -1,11 +1,16 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "image/exr_io.h"
 #include "image/image_io.h"
+#include "output/exr_layers.h"
+#include "output/matte_channels.h"
 #include "output/output_format.h"
 #include "render/film.h"
 #include "render/frame.h"
@@ -19,12 +24,41 @@ struct OutputOptions {
     int threads = 1;
     std::string fingerprint = {};  ///< of what the picture is made from; empty: the file has none
     FrameSettings frame = {};      ///< which frame it is
+    ExrChoice exr = {};
+};
+
+/// All channels that a file has of a film: those that it keeps, and those that are made of its mattes.
+class FilmChannels {
+  public:
+    /// Both must outlive it.
+    FilmChannels(const Frame& frame, const Film& film);
+
+    std::vector<ChannelFormat> formats() const;
+    /// The options of an EXR with these channels, named as was chosen.
+    ExrOptions exr_options(const Frame& frame, const ExrChoice& choice, int threads) const;
+    /// Whether rows of the film lack channels.
+    bool adds_any() const { return mattes_.has_value(); }
+    /// The rows [y0, y1) with all channels; of `strip`, which has them. Rows are those of whole bands.
+    Image rows(const ImageStrip& strip, int y0, int y1) const;
+    /// How often a name had no room in a pixel of Cryptomatte, in all rows so far.
+    std::uint64_t dropped() const { return mattes_ ? mattes_->dropped() : 0; }
+
+  private:
+    const Film& film_;
+    std::optional<MatteChannels> mattes_;
+};
+
+/// What writing a film tells.
+struct WrittenFilm {
+    std::uint64_t crypto_dropped = 0;  ///< FilmChannels::dropped()
 };
 
 /// Writes the film to its file (docs/conventions.md lists the layers). Throws InputError.
-void write_output(const Frame& frame, const Film& film, const OutputOptions& options);
-/// Writes a whole film's image into a file that is open; `options.path` is its name. `picture`: its paper.
-void write_output(ByteSink& file, const PictureSettings& picture, const Image& image, const OutputOptions& options);
+WrittenFilm write_output(const Frame& frame, const Film& film, const OutputOptions& options);
+/// Writes a whole film's image into a file that is open; `options.path` is its name. `picture`: its paper; `exr`: what
+/// an EXR says, beside its channels.
+void write_output(ByteSink& file, const PictureSettings& picture, const Image& image, const ExrOptions& exr,
+                  const OutputOptions& options);
 /// What a display shows of it: over its paper, or with an alpha channel if it is transparent.
 DisplayImage displayed(const PictureSettings& picture, const Image& image);
 
@@ -32,17 +66,18 @@ DisplayImage displayed(const PictureSettings& picture, const Image& image);
 /// has been called. Everything throws InputError.
 class BandWriter {
   public:
-    BandWriter(Film& film, const OutputOptions& options);
+    BandWriter(const Frame& frame, Film& film, const OutputOptions& options);
     ~BandWriter();
     /// Writes a band and closes it. It is called once for each band, in any order, by any threads at once.
     void write(std::size_t band);
     /// Puts the file under its name, after all bands are written.
-    void finish();
+    WrittenFilm finish();
     /// Whether anything that it was called for has failed.
     bool has_failed() const { return has_failed_; }
 
   private:
     Film& film_;
+    FilmChannels channels_;
     std::unique_ptr<ExrWriter> exr_;
     std::atomic<bool> has_failed_ = false;
 };

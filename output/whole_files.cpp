@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/mapped_file.h"
 #include "image/display_image.h"
-#include "image/exr_header.h"
+#include "image/exr_container.h"
 #include "output/lines_file.h"
 
 namespace burin {
@@ -131,10 +131,9 @@ std::optional<WholeFile> text_of(std::string_view bytes, std::string_view begin,
 std::optional<WholeFile> whole_file_of(std::string_view bytes, OutputFormat format) {
     switch (format) {
         case OutputFormat::exr: {
-            const std::optional<ExrHeader> header = header_of_whole_exr(bytes);
-            if (!header) return std::nullopt;
-            const auto text = header->texts.find(kFingerprintName);
-            return WholeFile{text == header->texts.end() ? "" : text->second, header->data};
+            const ExrContainer file = parse_exr_container({}, bytes);
+            const std::string_view fingerprint = file.parts.front().text(kFingerprintName).value_or("");
+            return WholeFile{std::string(fingerprint), file.parts.front().data};
         }
         case OutputFormat::png:
             return png_of(bytes);

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/stream_store.h"
 #include "image/half.h"
+#include "render/mattes.h"
 
 namespace burin {
 namespace {
@@ -56,6 +57,10 @@ void for_channels(const LayerSet& layers, LineClassSet classes, Planes& planes, 
         add_number("id.object", planes.ids[0]);
         add_number("id.material", planes.ids[1]);
         add_number("id.polygon", planes.ids[2]);
+    }
+    if (layers.motion) {
+        add_float("forward.u", planes.motion[0], 0);
+        add_float("forward.v", planes.motion[1], 0);
     }
 }
 
@@ -136,6 +141,7 @@ Film::Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassS
       blocks_(columns_ * ((static_cast<std::size_t>(std::max(crop.height() - 1, 0)) >> row_shift) + 1)),
       pool_(std::make_unique<Pool>()) {
     for (const ChannelFormat& channel : channels()) bytes_per_pixel_ += size_of(channel.type);
+    if (layers.crypto.has_any() || layers.line) mattes_ = std::make_unique<Mattes>(crop, layers.crypto, layers.line);
 }
 
 Film::~Film() = default;
@@ -242,6 +248,7 @@ ImageStrip Film::band(std::size_t number) const {
 }
 
 void Film::close(std::size_t number) {
+    if (mattes_ != nullptr) mattes_->close(number);
     const std::lock_guard lock(pool_->mutex);
     for (std::size_t i = number * columns_; i < (number + 1) * columns_; ++i) {
         Block* const block = blocks_[i].exchange(nullptr, std::memory_order_acq_rel);
@@ -299,6 +306,15 @@ void Film::put_background(int x0, int x1, int y) {
             clear(planes.normal[c], 0.0f);
             clear(planes.ids[c], std::uint32_t{0});
         }
+        for (float* plane : planes.motion) clear(plane, 0.0f);
+    });
+}
+
+void Film::put_motion(int x0, int x1, int y, const float* right, const float* up) {
+    for_row(x0, x1, y, [&](const Planes& planes, std::size_t begin, std::size_t count, std::size_t from) {
+        if (planes.motion[0] == nullptr) return;
+        std::copy_n(right + from, count, planes.motion[0] + begin);
+        std::copy_n(up + from, count, planes.motion[1] + begin);
     });
 }
 

@@ -14,9 +14,12 @@
 #include "image/image_strip.h"
 #include "kernels/tile_kernels.h"
 #include "lines/line_class.h"
+#include "render/crypto_layers.h"
 #include "render/drawn_spans.h"
 
 namespace burin {
+
+class Mattes;
 
 /// The layers that an output file can have.
 struct LayerSet {
@@ -30,6 +33,10 @@ struct LayerSet {
     bool lines_hidden = false;  ///< lines_hidden.R G B A
     /// NAME of each lines_NAME.R G B A: the strokes of one line set alone.
     std::vector<std::string> line_sets = {};
+    CryptoLayerSet crypto = {};  ///< CryptoObject00.R ...
+    int crypto_ranks = 6;        ///< how many names a pixel has room for, in each of them
+    bool line = false;           ///< line.object ...: the line that covers most of a pixel
+    bool motion = false;         ///< forward.u forward.v
 };
 
 /// What a method finds out about one pixel. Colours are linear and premultiplied.
@@ -111,7 +118,10 @@ class Film {
     bool is_whole() const { return blocks_.size() == 1 && row_shift_ == kWholeShift; }
     PixelRect display() const { return display_; }
     PixelRect crop() const { return crop_; }
+    /// Those that have pixels here. What is made of mattes() comes beside them.
     std::vector<ChannelFormat> channels() const;
+    /// Whose pixels are, for layers that ask for it; nullptr: none does. They are as constant as a pointer is.
+    Mattes* mattes() const { return mattes_.get(); }
     /// The rows of one band of a film in blocks.
     ImageStrip band(std::size_t number) const;
     /// Gives up the memory of a band that was read, to be used for others.
@@ -147,6 +157,8 @@ class Film {
     /// Where put_geometry() would copy a row of a film in blocks to, one that begins with this pixel and lies in one
     /// block: so that the row may be made there. Layers that are not kept have their place in `spare`.
     GeometryRow geometry_place(int x, int y, const GeometryRow& spare);
+    /// Puts where the surfaces of pixels [x0, x1) of a row are one frame later, in pixels to the right and up.
+    void put_motion(int x0, int x1, int y, const float* right, const float* up);
     /// Puts the background into pixels [x0, x1) of a row that nothing else is put into; then finish_stream_stores() is
     /// due, too.
     void put_background(int x0, int x1, int y);
@@ -192,6 +204,7 @@ class Film {
         float* depth = nullptr;
         float* normal[3] = {};
         std::uint32_t* ids[3] = {};
+        float* motion[2] = {};
     };
     struct Block {
         Image image;
@@ -240,6 +253,7 @@ class Film {
     std::vector<std::atomic<Block*>> blocks_;
     std::unique_ptr<Pool> pool_;
     DrawnSpans drawn_;  // of a whole film
+    std::unique_ptr<Mattes> mattes_;
 };
 
 }  // namespace burin

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct Frame {
     int height = 0;
     PixelRect crop;  ///< the part to render
     SurfaceSet surfaces;
+    /// The same surfaces one frame later, for the layer `motion`: the same instances, whose meshes have the same
+    /// triangles. nullptr: nothing moves.
+    const SurfaceSet* next = nullptr;
     LineCriteria criteria;
     /// The scene's style sheet, made ready for this picture; nullptr: the scene's line style says how lines look.
     std::shared_ptr<const CompiledSheet> sheet;
@@ -33,6 +37,10 @@ struct Frame {
     std::shared_ptr<const SurfaceLook> surface_look;
     DrawingNeeds needs;  ///< what the looks of the scene ask for
 
+    /// The picture, with what is rendered beside it.
+    PixelRect reach() const {
+        return {std::min(crop.x0, 0), std::min(crop.y0, 0), std::max(crop.x1, width), std::max(crop.y1, height)};
+    }
     const Material& material_of(SurfaceId s) const { return scene->materials[surfaces.material_id(s) - 1]; }
 };
 

@@ -34,21 +34,29 @@ LayerSet layers_named(std::string_view list) {
         {"beauty", &layers.beauty},   {"lines", &layers.lines},
         {"Z", &layers.depth},         {"N", &layers.normal},
         {"ids", &layers.ids},         {"coverage", &layers.coverage},
-        {"surface", &layers.surface}, {"lines_hidden", &layers.lines_hidden}};
+        {"surface", &layers.surface}, {"lines_hidden", &layers.lines_hidden},
+        {"line", &layers.line},       {"motion", &layers.motion}};
     for (std::size_t end = 0; end != std::string_view::npos;) {
         end = list.find(',');
         const std::string_view name = list.substr(0, end);
         const auto it =
             std::find_if(std::begin(names), std::end(names), [&](const auto& n) { return n.first == name; });
+        const auto* const crypto = std::find(kCryptoLayerNames.begin(), kCryptoLayerNames.end(), name);
         if (it != std::end(names)) {
             *it->second = true;
+        } else if (crypto != kCryptoLayerNames.end()) {
+            layers.crypto.add(static_cast<CryptoLayer>(crypto - kCryptoLayerNames.begin()));
+        } else if (name == "crypto") {
+            layers.crypto.add_all();
         } else if (name.starts_with(kOfSet) && name.size() > kOfSet.size()) {
             const std::string set(name.substr(kOfSet.size()));
             if (std::find(layers.line_sets.begin(), layers.line_sets.end(), set) == layers.line_sets.end())
                 layers.line_sets.push_back(set);
         } else {
-            throw UsageError("unknown layer '" + printable(name) +
-                             "'; known are beauty,lines,Z,N,ids,coverage,surface,lines_hidden");
+            throw UsageError(
+                "unknown layer '" + printable(name) +
+                "'; known are beauty,lines,Z,N,ids,coverage,surface,lines_hidden,line,motion,crypto and the layers "
+                "of crypto, CryptoObject,CryptoMaterial,CryptoLine,CryptoLineObject,CryptoLineSet");
         }
         if (end != std::string_view::npos) list.remove_prefix(end + 1);
     }
@@ -71,7 +79,14 @@ LayerSet layers_of(const Scene& scene, const std::optional<LayerSet>& named) {
                          (scene.sheet ? "sets of the style sheet have " + (known.empty() ? "none" : known)
                                       : "only sets of a style sheet have such layers"));
     }
-    return *named;
+    LayerSet layers = *named;
+    layers.crypto_ranks = scene.crypto.ranks;
+    if (!scene.sheet && layers.crypto.has(CryptoLayer::line_set)) {
+        if (!layers.crypto.is_all)
+            throw UsageError("CryptoLineSet has the line sets of a style sheet; give one with --style");
+        layers.crypto.remove(CryptoLayer::line_set);
+    }
+    return layers;
 }
 
 }  // namespace burin

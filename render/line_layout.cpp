@@ -34,7 +34,7 @@ std::vector<LinePiece> joined(const LineDrawing::Lists& lists) {
 LineDrawing laid_out(LineDrawing found, const Frame& frame, int threads) {
     const LineSettings& lines = frame.scene->lines;
     const LineStyle& style = lines.style;
-    const PixelRect picture{0, 0, frame.width, frame.height};
+    const PixelRect picture = frame.reach();
     const auto dash_px = visible_dashes(style).dash_px, dash_behind_px = hidden_dashes(style).dash_px;
     std::optional<SmoothContours> contours;
     if (lines.contours == Contours::smooth) contours.emplace(frame.surfaces, frame.criteria.cos_crease_angle, threads);

@@ -42,6 +42,11 @@ struct FrameSettings {
     bool is_of_sequence = false;  ///< several frames were asked for, be it one at a time
 };
 
+/// Layers of Cryptomatte.
+struct CryptoSettings {
+    int ranks = 6;  ///< how many names a pixel has room for: even, 2 to 16
+};
+
 /// Where a smooth surface turns away from the eye.
 enum class Contours : std::uint8_t {
     mesh,    ///< along the edges between polygons that face apart
@@ -85,6 +90,7 @@ struct Scene {
     bool camera_is_default = false;       ///< the input has no camera
     PictureSettings picture;
     FrameSettings frame;
+    CryptoSettings crypto;
     LineSettings lines;
     /// How lines look; none: as `lines.style` says. What it says of finding lines stands in `lines`, too (use_sheet()).
     std::shared_ptr<const StyleSheet> sheet;

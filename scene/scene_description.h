@@ -50,6 +50,7 @@ struct SceneDescription {
     std::vector<double> frame_range;  ///< the frames that the scene has; empty: it does not say
     std::optional<Turntable> turntable;
     std::uint64_t hash = 0;  ///< of what its tables say of all frames (hash_of_scene_tables())
+    CryptoSettings crypto;
     LineSettings lines;
     std::shared_ptr<const StyleSheet> sheet;
     std::vector<std::string> unread_line_keys;  ///< keys of [lines] that nothing reads beside the sheet

@@ -80,6 +80,7 @@ class SceneReader {
         if (auto t = root_.table("picture")) read_picture(*t);
         if (auto t = root_.table("frames")) read_frames(*t);
         if (auto t = root_.table("turntable")) scene_.turntable = read_turntable(*t);
+        if (auto t = root_.table("crypto")) read_crypto(*t);
         if (auto t = root_.table("lines")) scene_.lines = read_line_settings(*t);
         read_style();
         if (auto t = root_.table("surfaces")) {
@@ -272,6 +273,15 @@ class SceneReader {
     void read_frames(TomlReader& t) {
         scene_.frame.fps = read_frame_rate(t, "fps").value_or(scene_.frame.fps);
         scene_.frame_range = read_frame_range(t, "range");
+        t.finish();
+    }
+
+    void read_crypto(TomlReader& t) {
+        constexpr int kFewest = 2, kMost = 16;
+        if (const auto ranks = t.integer("ranks", kFewest, kMost)) {
+            if (*ranks % 2 != 0) t.fail("ranks", "must be an even number from 2 to 16");
+            scene_.crypto.ranks = static_cast<int>(*ranks);
+        }
         t.finish();
     }
 

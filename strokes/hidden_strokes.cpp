@@ -2,12 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "shading/dash_style.h"
 #include "shading/pen.h"
+#include "strokes/tile_mattes.h"
 
 namespace burin {
 namespace {
+
+bool is_wanted(const LinePiece& piece, const LineStyle& style) {
+    return piece.transmission > 0 && !(piece.is_hidden() && style.hidden.style == HiddenStyle::none);
+}
 
 /// Calls use(piece) for the pieces that are to be drawn: those that follow each other and look alike are one stroke,
 /// which is kept in `joined`.
@@ -20,7 +26,7 @@ void for_strokes(std::span<const LinePiece> pieces, const LineStyle& style, std:
             if (piece == &pieces[i]) piece = &joined.emplace_back(pieces[i]);
             extend(joined.back(), pieces[i + 1]);
         }
-        if (piece->transmission > 0 && !(piece->is_hidden() && style.hidden.style == HiddenStyle::none)) use(*piece);
+        if (is_wanted(*piece, style)) use(*piece);
     }
 }
 
@@ -87,6 +93,12 @@ class TileStrokes {
         }
     }
 
+    /// Says whose the samples of a pixel are, if it is asked.
+    void add(TileMattes* mattes, std::size_t i, const StrokeMask& mask, const TileMattes::Kind& kind) const {
+        if (mattes == nullptr) return;
+        mattes->add(static_cast<int>(i) % rect_.width(), static_cast<int>(i) / rect_.width(), mask, kind);
+    }
+
     static constexpr int kSamples = StrokeMask::kRows * StrokeMask::kColumns;
     /// How many samples of a pixel are in a mask and not taken.
     int count(const StrokeMask& mask, const StrokeMask& taken = {}) const {
@@ -106,8 +118,14 @@ class TileStrokes {
     std::vector<std::size_t> used_;
 };
 
+/// What is drawn into one mask.
+std::uint32_t group_of(bool is_hidden, int opacity, LineClass drawn_as) {
+    return (is_hidden ? 2u : 1u) << 16 | static_cast<std::uint32_t>(opacity) |
+           (is_hidden ? 0 : static_cast<std::uint32_t>(drawn_as) << 8);
+}
+
 void draw_seen_through(std::span<const LinePiece* const> layers, int opacity, const Pen& pen, const LineStyle& style,
-                       TileStrokes& strokes) {
+                       TileStrokes& strokes, TileMattes* mattes) {
     for (std::size_t c = 0; c < kLineClassCount; ++c) {
         const auto line_class = static_cast<LineClass>(c);
         const auto is_it = [&](const LinePiece& s) {
@@ -120,6 +138,7 @@ void draw_seen_through(std::span<const LinePiece* const> layers, int opacity, co
             remove(mask, own.visible);
             remove(mask, own.through);
             unite(own.through, mask);
+            strokes.add(mattes, i, mask, {group_of(false, opacity, line_class), strength, false, true});
             strokes.spread(i, mask, [&](TileStrokes::Pixel& pixel, float share) {
                 const float coverage = strength * share;
                 pixel.seen_through.color += glm::vec4(style.color_of(line_class), 1.0f) * coverage;
@@ -130,7 +149,8 @@ void draw_seen_through(std::span<const LinePiece* const> layers, int opacity, co
     }
 }
 
-void draw_hidden(std::span<const LinePiece* const> layers, int opacity, const Pen& pen, TileStrokes& strokes) {
+void draw_hidden(std::span<const LinePiece* const> layers, int opacity, const Pen& pen, TileStrokes& strokes,
+                 TileMattes* mattes) {
     const auto is_it = [&](const LinePiece& s) { return s.is_hidden() && s.seen_opacity() == opacity; };
     const float strength = pen.strength * static_cast<float>(opacity) / 255.0f;
     strokes.draw(layers, pen.radius_px, is_it, [&](std::size_t i, StrokeMask mask) {
@@ -143,6 +163,7 @@ void draw_hidden(std::span<const LinePiece* const> layers, int opacity, const Pe
         });
         remove(mask, own.visible);
         remove(mask, own.through);
+        strokes.add(mattes, i, mask, {group_of(true, opacity, {}), strength, true, true});
         strokes.spread(i, mask, [&](TileStrokes::Pixel& pixel, float share) { pixel.hidden_seen += strength * share; });
     });
 }
@@ -186,8 +207,19 @@ class HiddenStrokes::Worker {
           hidden_pen_(style.hidden_width_px(), StrokeSide::both, hidden_dashes(style).opacity),
           strokes_(filter, kernels) {}
 
-    void draw_below(std::span<const LinePiece* const> list, PixelRect inner, const VisibleStrokes& visible,
-                    Film& film) {
+    void draw_below(std::span<const LinePiece* const> list, std::span<const LinePiece* const> single, PixelRect inner,
+                    const VisibleStrokes& visible, Film& film, TileMattes* mattes) {
+        mattes_ = mattes;
+        if (mattes != nullptr) {
+            const auto add = [&](bool is_hidden, const Pen& pen, double width_px) {
+                mattes->add_pieces(single, pen.radius_px, width_px, [&](const LinePiece& s) {
+                    return s.is_hidden() == is_hidden ? std::optional(group_of(is_hidden, s.seen_opacity(), s.drawn_as))
+                                                      : std::nullopt;
+                });
+            };
+            add(false, pen_, style_.width_px);
+            add(true, hidden_pen_, style_.hidden_width_px());
+        }
         seen_through_.clear();
         const LinePiece& first = *list.front();
         const bool is_plain = filter_ == nullptr && std::all_of(list.begin(), list.end(), [&](const LinePiece* s) {
@@ -226,8 +258,8 @@ class HiddenStrokes::Worker {
         for (const LinePiece* s : list) opacities.push_back(s->seen_opacity());
         std::sort(opacities.rbegin(), opacities.rend());
         opacities.erase(std::unique(opacities.begin(), opacities.end()), opacities.end());
-        for (const int o : opacities) draw_seen_through(list, o, pen_, style_, strokes_);
-        for (const int o : opacities) draw_hidden(list, o, hidden_pen_, strokes_);
+        for (const int o : opacities) draw_seen_through(list, o, pen_, style_, strokes_, mattes_);
+        for (const int o : opacities) draw_hidden(list, o, hidden_pen_, strokes_, mattes_);
         for (const std::size_t i : strokes_.used()) {
             TileStrokes::Pixel& pixel = strokes_.pixel(i);
             const int x = rect.x0 + static_cast<int>(i) % rect.width();
@@ -254,6 +286,12 @@ class HiddenStrokes::Worker {
         const std::vector<HiddenInk>& inks = inks_of(list.front()->seen_opacity());
         for (const auto& [column, row, mask] : touched_) {
             const int x = rect.x0 + column, y = rect.y0 + row;
+            if (mattes_ != nullptr) {
+                StrokeMask seen = *mask;
+                remove(seen, taken_by(visible, column, row));
+                mattes_->add(column, row, seen,
+                             {group_of(true, list.front()->seen_opacity(), {}), strength, true, true});
+            }
             if (!visible.is_touched(column, row)) {  // mostly
                 film.draw_hidden(x, y, inks[static_cast<std::size_t>(strokes_.count(*mask))]);
                 continue;
@@ -279,6 +317,7 @@ class HiddenStrokes::Worker {
     const LineStyle& style_;
     const FilterTable* filter_;
     int reach_;
+    TileMattes* mattes_ = nullptr;
     Pen pen_, hidden_pen_;
     TileStrokes strokes_;
     std::vector<SeenThrough> seen_through_;
@@ -291,7 +330,7 @@ class HiddenStrokes::Worker {
 };
 
 HiddenStrokes::HiddenStrokes(const Frame& frame, const TileKernels& kernels, int threads, PixelRect part,
-                             const LineDrawing::Lists& behind)
+                             const LineDrawing::Lists& behind, bool has_mattes)
     : filter_(FilterTable::make(frame.scene->lines.style.filter)), grid_(part, kTilePx) {
     // What is not in front of all is drawn on both sides.
     const LineStyle& style = frame.scene->lines.style;
@@ -306,13 +345,28 @@ HiddenStrokes::HiddenStrokes(const Frame& frame, const TileKernels& kernels, int
         });
     }
     lists_ = TileLists<const LinePiece*>(records, grid_.count());
+    if (has_mattes) {
+        for (auto& list : records) list.clear();
+        for (std::size_t i = 0; i < behind.size(); ++i) {
+            for (const LinePiece& s : behind[i]) {
+                if (!is_wanted(s, style)) continue;
+                grid_.visit(glm::min(s.from, s.to) - reach, glm::max(s.from, s.to) + reach, [&](std::uint32_t tile) {
+                    records[i].push_back({tile, &s});
+                });
+            }
+        }
+        single_lists_ = TileLists<const LinePiece*>(records, grid_.count());
+    }
     for (int i = 0; i < threads; ++i) workers_.emplace_back(style, filter_.get(), kernels);
 }
 
 HiddenStrokes::~HiddenStrokes() = default;
 
-void HiddenStrokes::draw_below(int worker, std::size_t tile, const VisibleStrokes& visible, Film& film) {
-    workers_[static_cast<std::size_t>(worker)].draw_below(lists_.of(tile), grid_.tile(tile), visible, film);
+void HiddenStrokes::draw_below(int worker, std::size_t tile, const VisibleStrokes& visible, Film& film,
+                               TileMattes* mattes) {
+    const auto single = mattes != nullptr ? single_lists_.of(tile) : std::span<const LinePiece* const>{};
+    workers_[static_cast<std::size_t>(worker)].draw_below(lists_.of(tile), single, grid_.tile(tile), visible, film,
+                                                          mattes);
 }
 
 void HiddenStrokes::draw_above(int worker, Film& film) const {

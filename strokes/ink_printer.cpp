@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/parallel.h"
+#include "strokes/ink_mattes.h"
 #include "strokes/ink_pixels.h"
 #include "strokes/ink_tile.h"
 #include "strokes/pixel_filter.h"
@@ -68,6 +69,7 @@ void draw_ink(const Frame& frame, const InkedLines& lines, int threads, Film& fi
     struct Worker {
         InkTile tile;
         InkPixels pixels;
+        std::optional<InkMattes> mattes = std::nullopt;  // if some layer asks for it
     };
     std::vector<std::unique_ptr<Worker>> workers(static_cast<std::size_t>(resolve_thread_count(threads)));
     parallel_for(bins.tiles.count(), static_cast<int>(workers.size()), [&](std::size_t i, int worker) {
@@ -77,11 +79,15 @@ void draw_ink(const Frame& frame, const InkedLines& lines, int threads, Film& fi
         if (own == nullptr) {
             own.reset(new Worker{InkTile(frame, lines, plan, best_kernels()),
                                  InkPixels(lines, plan, filter.get(), best_kernels(), film)});
+            if (film.mattes() != nullptr)
+                own->mattes.emplace(frame, lines, plan, filter.get(), best_kernels(), *film.mattes());
         }
         const PixelRect rect = bins.tiles.tile(i);
+        if (own->mattes) own->tile.tell(&own->mattes->begin(rect));
         own->tile.draw(segments, bins.boundaries.of(i),
                        {rect.x0 - reach, rect.y0 - reach, rect.x1 + reach, rect.y1 + reach});
         own->pixels.put(own->tile, rect);
+        if (own->mattes) own->mattes->add(own->tile);
     });
 }
 

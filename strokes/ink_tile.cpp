@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "base/interrupt.h"
+#include "strokes/owner_masks.h"
 
 namespace burin {
 namespace {
@@ -143,6 +144,7 @@ void InkTile::draw_layer(std::span<const InkSegmentRef> segments) {
     layers_.push_back({&plan_.looks[stroke], stroke, &canvas});
     for (const InkSegmentRef& ref : segments) {
         throw_if_interrupted();
+        if (owners_ != nullptr) tell_owner(ref);
         const bool is_cut = is_clipped(ref);
         if (!is_cut && lines_.strokes[ref.stroke].caps == StrokeCaps::round) {  // mostly
             canvas.draw(lines_.points[ref.point].place, lines_.points[ref.point + 1].place,
@@ -158,6 +160,19 @@ void InkTile::draw_layer(std::span<const InkSegmentRef> segments) {
             }
         }
     }
+}
+
+void InkTile::tell_owner(const InkSegmentRef& ref) {
+    const StrokeOrigin& origin = lines_.origins[ref.stroke];
+    const InkSegment segment = segment_of(ref);
+    OwnerMasks::Line line;
+    line.group = ref.rank;
+    line.drawn_as = plan_.orders[ref.rank].drawn_as;
+    line.invisibility = origin.invisibility;
+    line.owner = {origin.object, origin.material};
+    line.width_px = segment.from().width_px;
+    for (const InkSegment::Part& part : segment.parts())
+        owners_->add(part.cone, segment.from().nearness, segment.to().nearness, line);
 }
 
 void InkTile::draw_chain(std::span<const InkSegmentRef> segments) {
@@ -253,6 +268,7 @@ void InkTile::take(const Placed& placed, int column, int row, const StrokeMask& 
     record.samples += samples;
     record.alpha += ink;
     record.nearness += count * placed.segment.nearness_at(share);
+    record.width += count * glm::mix(placed.segment.from().width_px, placed.segment.to().width_px, share);
     record.color += ink * placed.segment.color_at(share);
 }
 

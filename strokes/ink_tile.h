@@ -63,9 +63,11 @@ struct InkRecord {
     bool is_plain = true;  ///< all of it is opaque ink of the first one's look
     StrokeMask mask;
     int samples = 0;
-    float alpha = 0, nearness = 0;  ///< sums over the samples
-    glm::vec3 color{0.0f};          ///< times alpha
+    float alpha = 0, nearness = 0, width = 0;  ///< sums over the samples
+    glm::vec3 color{0.0f};                     ///< times alpha
 };
+
+class OwnerMasks;
 
 /// PieceMasks draws one cone into masks of the pixels around it. Buffers are used again.
 class PieceMasks {
@@ -113,6 +115,8 @@ class InkTile {
   public:
     InkTile(const Frame& frame, const InkedLines& lines, const InkPlan& plan, const TileKernels& kernels);
 
+    /// `owners`: is told whose the strokes of layers() are, from now on; the lines have their origins then.
+    void tell(OwnerMasks* owners) { owners_ = owners; }
     /// `segments`: all that reach the rectangle; `boundaries`: numbers of those within the largest radius of it.
     void draw(std::span<const InkSegmentRef> segments, std::span<const std::uint32_t> boundaries, PixelRect rect);
 
@@ -173,6 +177,7 @@ class InkTile {
     void cut_at_ends(const InkSegmentRef& ref, InkSegment& segment) const;
     void find_boundaries(std::span<const std::uint32_t> boundaries);
     void draw_layer(std::span<const InkSegmentRef> segments);
+    void tell_owner(const InkSegmentRef& ref);
     void draw_chain(std::span<const InkSegmentRef> segments);
     void draw_parts(bool is_thin, bool body_only);
     bool is_clipped(const InkSegmentRef& ref);
@@ -187,6 +192,7 @@ class InkTile {
     const InkPlan& plan_;
     const Projection& projection_;
     const TileKernels& kernels_;
+    OwnerMasks* owners_ = nullptr;
     PixelRect rect_;
     int stride_ = 0;
     std::deque<StrokeCanvas> canvases_;

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <memory>
 #include <optional>
 #include <span>
 
 #include "base/parallel.h"
 #include "strokes/pixel_filter.h"
+#include "strokes/tile_mattes.h"
 #include "strokes/visible_strokes.h"
 
 namespace burin {
@@ -69,6 +72,29 @@ class StrokePrinter::Printer {
     }
     const VisibleStrokes& strokes() const { return strokes_; }
 
+    /// Begins to tell whose the strokes of a tile are.
+    TileMattes* begin_mattes(std::span<const LinePiece* const> pieces, PixelRect rect, const Frame& frame,
+                             Mattes& mattes, const FilterTable* filter) {
+        if (!mattes_) mattes_ = std::make_shared<TileMattes>(frame, mattes, filter, kernels_);
+        mattes_->begin(rect);
+        mattes_->add_pieces(pieces, strokes_.pen().radius_px, style_.width_px, [](const LinePiece& piece) {
+            return piece.is_drawn ? std::optional(group_of(piece.drawn_as, piece.opacity)) : std::nullopt;
+        });
+        strokes_.for_touched([&](int column, int row) {
+            strokes_.for_classes(column, row,
+                                 [&](LineClass c, StrokeMask mask, const StrokeMask& taken, float opacity) {
+                                     for (std::size_t r = 0; r < mask.rows.size(); ++r) mask.rows[r] &= ~taken.rows[r];
+                                     const auto of_255 = static_cast<std::uint8_t>(std::lround(opacity * 255.0f));
+                                     TileMattes::Kind kind;
+                                     kind.group = group_of(c, of_255);
+                                     kind.strength = opacity * strokes_.pen().strength;
+                                     kind.is_opaque = of_255 == 255;
+                                     mattes_->add(column, row, mask, kind);
+                                 });
+        });
+        return mattes_.get();
+    }
+
     /// Draws the tile on the film where each pixel sees its own square.
     void print(PixelRect rect, Film& film) {
         touched_.clear();
@@ -119,6 +145,10 @@ class StrokePrinter::Printer {
     }
 
   private:
+    /// What is drawn into one mask.
+    static std::uint32_t group_of(LineClass c, std::uint8_t opacity) {
+        return static_cast<std::uint32_t>(c) << 8 | opacity;
+    }
     /// Column and row count from the first pixels within the filter's reach of `rect`.
     void spread(const FilterTable::Shares& shares, float strength, LineClass c, int column, int row, PixelRect rect) {
         for (int dy = 0; dy < FilterTable::kSide; ++dy) {
@@ -159,6 +189,7 @@ class StrokePrinter::Printer {
     const LineStyle& style_;
     const TileKernels& kernels_;
     VisibleStrokes strokes_;
+    std::shared_ptr<TileMattes> mattes_;  // made when it is needed
     struct Pixel {
         int column, row;
     };
@@ -186,13 +217,16 @@ void StrokePrinter::print(int worker, const Bins& bins, std::size_t index, Hidde
     Printer& printer = printers_[static_cast<std::size_t>(worker)];
     const PixelRect tile = bins.tiles.tile(index);
     printer.draw(lines, tile, filter_ ? FilterTable::kReach : 0);
-    if (has_behind) behind->draw_below(worker, index, printer.strokes(), film_);
+    TileMattes* mattes = nullptr;
+    if (film_.mattes() != nullptr) mattes = printer.begin_mattes(lines, tile, frame_, *film_.mattes(), filter_.get());
+    if (has_behind) behind->draw_below(worker, index, printer.strokes(), film_, mattes);
     if (filter_) {
         printer.print(tile, *filter_, film_);
     } else {
         printer.print(tile, film_);
     }
     if (has_behind) behind->draw_above(worker, film_);
+    if (mattes != nullptr) mattes->finish();
 }
 
 void StrokePrinter::draw(PixelRect part, const Lists& lines, HiddenStrokes* behind) {

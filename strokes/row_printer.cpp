@@ -23,6 +23,7 @@ RowPrinter::RowPrinter(const Frame& frame, const RunOptions& options, const Line
       threads_(resolve_thread_count(options.threads)),
       crop_(frame.crop),
       reach_px_(frame.scene->lines.style.reach_px() + 2),
+      has_mattes_(film.mattes() != nullptr),
       strokes_(frame, best_kernels(), threads_, film),
       taken_y_(frame.crop.y0) {}
 
@@ -66,7 +67,7 @@ double RowPrinter::draw_rows(int known_y) {
     const PixelRect rows = take(known_y, kMostBandsOfAll);
     if (rows.height() == 0) return 0;
     std::optional<HiddenStrokes> behind;
-    if (frame_.needs.behind()) behind.emplace(frame_, best_kernels(), threads_, rows, drawing_.behind());
+    if (frame_.needs.behind()) behind.emplace(frame_, best_kernels(), threads_, rows, drawing_.behind(), has_mattes_);
     strokes_.draw(rows, lines_reaching(rows, known_y), behind ? &*behind : nullptr);
     if (!hands_on()) return 0;
     const Stopwatch watch;

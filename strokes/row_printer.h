@@ -39,6 +39,7 @@ class RowPrinter : public RowSink {
     int threads_;
     PixelRect crop_;
     double reach_px_;  // how far from a line its stroke may reach, and a bit
+    bool has_mattes_;
     StrokePrinter strokes_;
     std::mutex taking_;
     int taken_y_;

@@ -9,6 +9,7 @@
 #include "abuffer/screen/sampling.h"
 #include "base/parallel.h"
 #include "kernels/tile_kernels.h"
+#include "render/mattes.h"
 #include "shading/surface/fragment_shader.h"
 #include "shading/surface_shader.h"
 #include "view/scan_convert.h"
@@ -150,6 +151,8 @@ class TransparentTile {
     }
 
     void composite(Film& film) {
+        has_mattes_ = film.mattes() != nullptr && film.mattes()->wants_surfaces() &&
+                      frame_.scene->surfaces.shading != SurfaceShading::none;
         const int s = samples_.samples_per_pixel;
         // Where each row of pixels begins in transparent_; sorted by sample, so rows of samples follow each other.
         for (int y = std::max(rect_.y0, frame_.crop.y0); y < std::min(rect_.y1, frame_.crop.y1); ++y) {
@@ -158,14 +161,21 @@ class TransparentTile {
                 glm::vec4 sum(0.0f);
                 bool any = false;
                 last_number_ = ~0u;
+                shares_.clear();
                 for (int row = (y - rect_.y0) * s; row < (y - rect_.y0 + 1) * s; ++row) {
                     for (int column = (x - rect_.x0) * s; column < (x - rect_.x0 + 1) * s; ++column) {
                         sum += sample_color(static_cast<std::uint32_t>(row * samples_.stride + column), x, y, any);
                     }
                 }
-                if (any) film.replace_surface(x, y, sum / static_cast<float>(s * s));
+                if (!any) continue;
+                film.replace_surface(x, y, sum / static_cast<float>(s * s));
+                for (const Share& share : shares_) {
+                    film.mattes()->put_surface(x, x + 1, y, share.owner, share.sum / static_cast<float>(s * s), true,
+                                               batch_);
+                }
             }
         }
+        if (film.mattes() != nullptr) film.mattes()->add(batch_);
     }
 
     glm::vec4 sample_color(std::uint32_t sample, int x, int y, bool& any) {
@@ -176,11 +186,25 @@ class TransparentTile {
             any = true;
             const float o = opacity(at->number);
             color += surface_at(at->number, x, y) * (left * o);
+            if (has_mattes_) add_share(at->number, left * o);
             left *= 1 - o;
         }
         const std::uint32_t id = samples_.ids[sample];
-        if (id != SampleTile::kBackground) color += surface_at(id >> 1, x, y) * left;
-        return color;
+        if (id == SampleTile::kBackground) return color;
+        if (has_mattes_) add_share(id >> 1, left);
+        return color + surface_at(id >> 1, x, y) * left;
+    }
+
+    void add_share(std::uint32_t number, float share) {
+        const SurfaceId id = screen_.surface_of(number);
+        const MatteOwner owner{frame_.surfaces.object_id(id), frame_.surfaces.material_id(id)};
+        const auto known =
+            std::find_if(shares_.begin(), shares_.end(), [&](const Share& s) { return s.owner == owner; });
+        if (known == shares_.end()) {
+            shares_.push_back({owner, share});
+        } else {
+            known->sum += share;
+        }
     }
 
     /// The first transparent triangle at a sample or behind it.
@@ -286,6 +310,13 @@ class TransparentTile {
     SurfaceOrder order_;  // of these two
     std::uint32_t last_number_ = ~0u;
     glm::vec4 last_color_{0.0f};
+    bool has_mattes_ = false;
+    struct Share {
+        MatteOwner owner;
+        float sum;  // over samples
+    };
+    std::vector<Share> shares_;  // of a pixel
+    MatteBatch batch_;
     std::optional<FragmentShader> shader_;
     std::vector<Found> row_;  // of a row of pixels, from the left
     std::vector<SurfaceFragment> fragments_;

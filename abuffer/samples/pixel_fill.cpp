@@ -333,7 +333,9 @@ void PixelFiller::fill_part(const SampleTile& samples, PixelRect part, Film& fil
     for (int y = part.y0; y < part.y1; ++y) {
         if (has_geometry) put_geometry(part, y, film);
         if (!is_put) put_shaded(samples, part, y, film);
+        if (film.layers().motion) put_motion(samples, part, y, film);
     }
+    if (film.mattes() != nullptr) add_mattes(samples, part, *film.mattes());
 }
 
 void PixelFiller::fill(const SurfaceTile& tile, Film& film) {

@@ -6,6 +6,7 @@
 
 #include "abuffer/samples/surface_tile.h"
 #include "render/film.h"
+#include "render/mattes.h"
 #include "shading/surface/fragment_shader.h"
 
 namespace burin {
@@ -42,6 +43,11 @@ class PixelFiller {
     glm::vec4 color(std::uint32_t number, int x, int y);
     /// Puts the colours of a part whose shading varies over surfaces.
     void put_fragments(const SampleTile& samples, PixelRect rect, Film& film);
+    /// Says whose a part's pixels are.
+    void add_mattes(const SampleTile& samples, PixelRect rect, Mattes& mattes);
+    void find_owners(const SampleTile& samples, int x, int y);
+    const MatteOwner& owner_of(std::uint32_t number);
+    void put_motion(const SampleTile& samples, PixelRect rect, int y, Film& film) const;
     void add_fragments(const SampleTile& samples, int x, int y);
 
     const Frame& frame_;
@@ -58,6 +64,15 @@ class PixelFiller {
     std::vector<std::uint8_t> samples_of_;    // of each of them: how many
     std::vector<std::uint8_t> fragments_of_;  // of each pixel: how many
     std::vector<glm::vec3> colors_;           // of each fragment
+    MatteBatch matte_batch_;
+    std::uint32_t owned_number_ = 0xFFFFFFFFu;  // whose owner is:
+    MatteOwner owner_;
+    struct Owned {
+        MatteOwner owner;
+        int samples;
+        bool operator==(const Owned&) const = default;
+    };
+    std::vector<Owned> owned_;  // of a pixel
     struct Row {
         std::uint16_t color[4][kWidth];
         static_assert(kWidth % 4 == 0);  // see GeometryRow

@@ -20,8 +20,6 @@ inline bool completes_lines(const Frame& frame) {
 }
 
 /// The pixels whose visible lines must be known.
-inline PixelRect rect_with_lines(const Frame& frame) {
-    return frame.needs.whole_picture ? PixelRect{0, 0, frame.width, frame.height} : frame.crop;
-}
+inline PixelRect rect_with_lines(const Frame& frame) { return frame.needs.whole_picture ? frame.reach() : frame.crop; }
 
 }  // namespace burin

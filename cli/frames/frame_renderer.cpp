@@ -17,6 +17,7 @@
 #include "output/lines_file.h"
 #include "output/whole_files.h"
 #include "render/layer_names.h"
+#include "render/mattes.h"
 #include "render/picture_notes.h"
 #include "scene/animation/frame_list.h"
 #include "scene/plain_sheet.h"
@@ -58,12 +59,21 @@ void draw_by_sheet(Scene& scene) {
     scene.names_lines = true;
 }
 
+/// Refuses layers that only the A-buffer has, of one view.
+void refuse_layers(const LayerSet& layers, const Method& method, std::size_t view_count) {
+    if (!layers.crypto.has_any() && !layers.line && !layers.motion) return;
+    if (method.name != "abuffer")
+        throw UsageError("--layers: method " + std::string(method.name) +
+                         " has no layers crypto, line and motion; use method abuffer");
+    if (view_count > 0) throw UsageError("--views: cannot stand beside layers crypto, line and motion; remove one");
+}
+
 Film make_film(const Frame& frame, const LayerSet& layers, bool in_bands, const std::string& path) {
     try {
         const PixelRect display{0, 0, frame.width, frame.height};
         Film film = in_bands ? Film::in_bands(display, frame.crop, layers, frame.criteria.classes)
                              : Film(display, frame.crop, layers, frame.criteria.classes);
-        if (!film.channels().empty()) return film;
+        if (!film.channels().empty() || film.mattes() != nullptr) return film;
     } catch (const InputError& error) {
         throw InputError(path + ": " + error.what());
     }
@@ -94,13 +104,15 @@ std::string without_numbers(std::string text) {
 
 void DrawnFrame::write(const Arguments& a) {
     Stopwatch watch;
+    WrittenFilm written;
     if (bands) {
-        bands->finish();
+        written = bands->finish();
     } else if (is_vector(output.format)) {
         write_vector(drawing, a, output);
     } else {
-        write_output(frame, *film, output);
+        written = write_output(frame, *film, output);
     }
+    if (film && film->layers().crypto.has_any()) times.crypto_dropped = written.crypto_dropped;
     times.write_s = times.render.write_s + watch.lap();
 }
 
@@ -191,11 +203,13 @@ DrawnFrame FrameRenderer::draw(const OutputOptions& output, Progress* progress) 
     drawn.number = scene().frame.number;
     drawn.output = output;
     drawn.frame = frame_of(scene(), camera_, arguments_, &posed_.prepared());
-    const Frame& frame = drawn.frame;
     drawn.times.load_s = std::exchange(pose_s_, 0) + watch.lap();
-    if (is_first_) note_limits(arguments_, frame, method_, has_hidden_lines_, output);
-
     LayerSet layers = layers_for(scene(), arguments_);
+    refuse_layers(layers, method_, views_.size());
+    // For line.qi. It changes no picture; a sheet asks for what it needs.
+    if (layers.line && !scene().sheet) drawn.frame.needs.tells_invisibility = drawn.frame.needs.behind();
+    const Frame& frame = drawn.frame;
+    if (is_first_) note_limits(arguments_, frame, method_, has_hidden_lines_, output);
     if (output.format != OutputFormat::exr) layers = LayerSet{true, false, false, false, false, false, false, false};
     // An EXR is compressed while it is drawn; but not when times are taken.
     const bool in_bands = output.format == OutputFormat::exr && arguments_.repeat == 0 && views_.empty() &&
@@ -203,7 +217,7 @@ DrawnFrame FrameRenderer::draw(const OutputOptions& output, Progress* progress) 
     drawn.film = std::make_unique<Film>(make_film(frame, layers, in_bands, output.path));
     RunOptions run{arguments_.threads, progress, arguments_.memory_bytes};
     if (in_bands) {
-        drawn.bands = std::make_unique<BandWriter>(*drawn.film, output);
+        drawn.bands = std::make_unique<BandWriter>(frame, *drawn.film, output);
         run.finished_band = [&drawn](std::size_t band) { drawn.bands->write(band); };
     }
     if (plan_.lines) {

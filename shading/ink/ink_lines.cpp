@@ -229,6 +229,7 @@ class StrokeMaker {
     void add_origin(std::span<const PathPoint> path) {
         StrokeOrigin origin;
         origin.object = lines_.object_of(path.front().piece);
+        origin.material = lines_.material_of(path.front().piece);
         origin.invisibility = 255;
         for (const PathPoint& p : path) origin.invisibility = std::min(origin.invisibility, piece_of(p).invisibility);
         origin.edge = edge_;

@@ -79,9 +79,10 @@ struct InkBoundary {
     float drawn_width_px = std::numeric_limits<float>::infinity();
 };
 
-/// What vector files say of a stroke beside its ink.
+/// What vector files and mattes say of a stroke beside its ink.
 struct StrokeOrigin {
     std::uint32_t object = 0;       ///< in front, from 1; 0: none
+    std::uint32_t material = 0;     ///< of that
     std::uint8_t invisibility = 0;  ///< how many opaque surfaces are in front of it, at least
     /// A name of its line: a hash of the object's name, and of the place in the object where the line's chain begins.
     /// Contours, and lines whose chains are not known, have one name per object and class.

@@ -58,6 +58,7 @@ class LineColumns {
               SampleColumns& out, std::span<const std::string> attributes = {}) const;
 
     std::uint32_t object_of(std::size_t piece) const { return lines_.sides[piece].front_object; }
+    std::uint32_t material_of(std::size_t piece) const { return lines_.sides[piece].front_material; }
     /// Hashes what an object, a chain is; the same in all frames.
     LineHash object_hash(std::size_t piece, const SampleVariant& variant) const;
     LineHash chain_hash(const LineRun& run, const SampleVariant& variant) const;

@@ -1,0 +1,111 @@
+#include "render/mattes.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace burin {
+namespace {
+
+auto key_of(const SurfaceShare& s) {
+    return std::tuple(s.place.pixel, s.is_transparent, s.owner.object, s.owner.material, s.share);
+}
+auto key_of(const LineShare& s) {
+    return std::tuple(s.place.pixel, s.is_below, s.is_hidden, s.drawn_as, s.set, s.owner.object, s.owner.material,
+                      s.share);
+}
+/// The one that covers most comes first; of equal ones, by class.
+auto key_of(const LineSpot& s) {
+    return std::tuple(s.place.pixel, -s.coverage, s.drawn_as, s.invisibility, s.distance, s.owner.object,
+                      s.owner.material, s.width_px);
+}
+
+template <typename Record, std::size_t kCount>
+void sort_by_pixel(std::vector<Record>& records, std::array<std::uint32_t, kCount>& first) {
+    std::sort(records.begin(), records.end(),
+              [](const Record& a, const Record& b) { return key_of(a) < key_of(b); });
+    for (const Record& r : records) ++first[r.place.pixel + 1u];
+    for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+}
+
+}  // namespace
+
+Mattes::Mattes(PixelRect crop, CryptoLayerSet layers, bool wants_spots)
+    : crop_(crop),
+      layers_(layers),
+      wants_spots_(wants_spots),
+      columns_(static_cast<std::uint32_t>((std::max(crop.width(), 0) + kBlockPx - 1) / kBlockPx)),
+      blocks_(std::size_t{columns_} * static_cast<std::size_t>((std::max(crop.height(), 0) + kBlockPx - 1) / kBlockPx)) {
+}
+
+void Mattes::put_surface(int x0, int x1, int y, MatteOwner owner, float share, bool is_transparent,
+                         MatteBatch& batch) const {
+    for (int x = x0; x < x1;) {
+        const int end = std::min(x1, crop_.x0 + ((x - crop_.x0) / kBlockPx + 1) * kBlockPx);
+        batch.surfaces.push_back({place_of(x, y), static_cast<std::uint16_t>(end - x), is_transparent, owner, share});
+        x = end;
+    }
+}
+
+template <typename Record>
+void Mattes::move_to_blocks(std::vector<Record>& records, std::vector<Record> Block::*list) {
+    for (std::size_t i = 0; i < records.size();) {
+        const std::uint32_t number = records[i].place.block;
+        const std::lock_guard lock(mutexes_[number % mutexes_.size()]);
+        std::unique_ptr<Block>& block = blocks_[number];
+        if (block == nullptr) block = std::make_unique<Block>();
+        for (; i < records.size() && records[i].place.block == number; ++i) ((*block).*list).push_back(records[i]);
+    }
+}
+
+void Mattes::add(MatteBatch& batch) {
+    move_to_blocks(batch.surfaces, &Block::surfaces);
+    move_to_blocks(batch.lines, &Block::lines);
+    move_to_blocks(batch.spots, &Block::spots);
+    batch.clear();
+}
+
+void Mattes::close(std::size_t row) {
+    for (std::size_t i = row * columns_; i < (row + 1) * columns_ && i < blocks_.size(); ++i) blocks_[i].reset();
+}
+
+void Mattes::clear() {
+    for (std::unique_ptr<Block>& block : blocks_) block.reset();
+}
+
+Mattes::Sorted::Sorted(const Block& block) : lines_(block.lines), spots_(block.spots) {
+    for (const SurfaceShare& run : block.surfaces) {
+        for (unsigned i = 0; i < run.count; ++i) {
+            SurfaceShare& one = surfaces_.emplace_back(run);
+            one.place.pixel = static_cast<std::uint16_t>(run.place.pixel + i);
+            one.count = 1;
+        }
+    }
+    sort_by_pixel(surfaces_, first_surface_);
+    sort_by_pixel(lines_, first_line_);
+    sort_by_pixel(spots_, first_spot_);
+}
+
+bool Mattes::Sorted::has_any(std::uint16_t place) const {
+    const std::size_t i = place;
+    return first_surface_[i] < first_surface_[i + 1] || first_line_[i] < first_line_[i + 1] ||
+           first_spot_[i] < first_spot_[i + 1];
+}
+
+Mattes::Pixel Mattes::Sorted::pixel(std::uint16_t place) {
+    const std::size_t i = place;
+    lines_now_.assign(lines_.begin() + first_line_[i], lines_.begin() + first_line_[i + 1]);
+    float above = 0, below = 0;
+    for (const LineShare& line : lines_now_) (line.is_below ? below : above) += line.share;
+    const float left_above = std::max(1.0f - above, 0.0f), left = left_above * std::max(1.0f - below, 0.0f);
+    for (LineShare& line : lines_now_) {
+        if (line.is_below) line.share *= left_above;
+    }
+    surfaces_now_.assign(surfaces_.begin() + first_surface_[i], surfaces_.begin() + first_surface_[i + 1]);
+    if (!surfaces_now_.empty() && surfaces_now_.back().is_transparent)
+        std::erase_if(surfaces_now_, [](const SurfaceShare& s) { return !s.is_transparent; });
+    for (SurfaceShare& surface : surfaces_now_) surface.share *= left;
+    const bool has_spot = first_spot_[i] < first_spot_[i + 1];
+    return {0, 0, surfaces_now_, lines_now_, has_spot ? &spots_[first_spot_[i]] : nullptr};
+}
+
+}  // namespace burin

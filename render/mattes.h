@@ -1,0 +1,166 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "image/image.h"
+#include "lines/line_class.h"
+#include "render/crypto_layers.h"
+
+// Whose each pixel is: the surfaces and the lines in it, with the share that each has in its alpha. From this
+// follow the layers of Cryptomatte, and the layer of the line that covers most of a pixel.
+
+namespace burin {
+
+/// What a surface or a line belongs to: numbers of the scene, from 1; 0: nothing.
+struct MatteOwner {
+    std::uint32_t object = 0, material = 0;
+    bool operator==(const MatteOwner&) const = default;
+};
+
+/// A pixel by its block and its place there.
+struct MattePlace {
+    std::uint32_t block = 0;
+    std::uint16_t pixel = 0;
+};
+
+/// Pixels side by side of which a surface has the same share.
+struct SurfaceShare {
+    MattePlace place;
+    std::uint16_t count = 1;
+    /// Of pixels in which surfaces are seen through each other, these shares take the place of all others.
+    bool is_transparent = false;
+    MatteOwner owner;
+    float share = 0;  ///< of the pixel, before lines are drawn over it
+};
+
+/// The share of a pixel that lines of one kind have.
+struct LineShare {
+    MattePlace place;
+    LineClass drawn_as = LineClass::silhouette;
+    bool is_hidden = false;
+    bool is_below = false;  ///< others are drawn over it: the share is one of what these leave
+    std::uint16_t set = 0;  ///< of a style sheet
+    MatteOwner owner;
+    float share = 0;
+};
+
+/// A line in a pixel, as the layer `line` shows one.
+struct LineSpot {
+    MattePlace place;
+    LineClass drawn_as = LineClass::silhouette;
+    std::uint8_t invisibility = 0;  ///< opaque surfaces in front of it
+    MatteOwner owner;
+    float distance = 0;  ///< along the view axis
+    float width_px = 0;
+    float coverage = 0;  ///< of the pixel's own square, whatever the filter
+};
+
+/// What one thread finds in a part of the picture.
+struct MatteBatch {
+    std::vector<SurfaceShare> surfaces;
+    std::vector<LineShare> lines;
+    std::vector<LineSpot> spots;
+
+    void clear() { surfaces.clear(), lines.clear(), spots.clear(); }
+};
+
+/// Mattes collects them for a picture in blocks of pixels, which are the blocks of a film in bands. Different threads
+/// may add at the same time, in any order.
+class Mattes {
+  public:
+    static constexpr int kBlockPx = 32;
+
+    /// `wants_spots`: for the layer `line`.
+    Mattes(PixelRect crop, CryptoLayerSet layers, bool wants_spots);
+
+    CryptoLayerSet layers() const { return layers_; }
+    bool wants_surfaces() const { return layers_.has_surfaces(); }
+    bool wants_shares() const { return layers_.has_any(); }
+    bool wants_spots() const { return wants_spots_; }
+
+    MattePlace place_of(int x, int y) const {
+        const int column = x - crop_.x0, row = y - crop_.y0;
+        return {static_cast<std::uint32_t>(row / kBlockPx) * columns_ + static_cast<std::uint32_t>(column / kBlockPx),
+                static_cast<std::uint16_t>(row % kBlockPx * kBlockPx + column % kBlockPx)};
+    }
+    /// Pixels [x0, x1) of a row have the same share of a surface.
+    void put_surface(int x0, int x1, int y, MatteOwner owner, float share, bool is_transparent, MatteBatch& batch) const;
+    /// Takes what a batch has, and clears it.
+    void add(MatteBatch& batch);
+
+    /// What is known of one pixel when the picture is drawn.
+    struct Pixel {
+        int x, y;
+        /// Of surfaces and lines; the shares of all add up to the pixel's alpha.
+        std::span<const SurfaceShare> surfaces;
+        std::span<const LineShare> lines;
+        const LineSpot* line;  ///< that covers most of it; nullptr: there is none
+    };
+    /// Calls use(pixel) for the pixels of some rows of blocks that have anything, in an order that depends on nothing.
+    template <typename Use>
+    void for_pixels(PixelRect rows, const Use& use) const;
+    /// Forgets what a row of blocks has.
+    void close(std::size_t row);
+    void clear();
+
+  private:
+    struct Block {
+        std::vector<SurfaceShare> surfaces;
+        std::vector<LineShare> lines;
+        std::vector<LineSpot> spots;
+    };
+    /// What a block has, sorted: of each pixel, in turns.
+    class Sorted;
+
+    template <typename Record>
+    void move_to_blocks(std::vector<Record>& records, std::vector<Record> Block::*list);
+
+    PixelRect crop_;
+    CryptoLayerSet layers_;
+    bool wants_spots_;
+    std::uint32_t columns_;
+    std::vector<std::unique_ptr<Block>> blocks_;
+    std::array<std::mutex, 64> mutexes_;  // of each block one, by its number
+};
+
+/// What Mattes::for_pixels() makes of a block.
+class Mattes::Sorted {
+  public:
+    explicit Sorted(const Block& block);
+    /// The pixel's shares, which are valid until the next call.
+    Pixel pixel(std::uint16_t place);
+    bool has_any(std::uint16_t place) const;
+
+  private:
+    std::vector<SurfaceShare> surfaces_;
+    std::vector<LineShare> lines_;
+    std::vector<LineSpot> spots_;
+    std::vector<SurfaceShare> surfaces_now_;
+    std::vector<LineShare> lines_now_;
+    std::array<std::uint32_t, kBlockPx * kBlockPx + 1> first_surface_{}, first_line_{}, first_spot_{};
+};
+
+template <typename Use>
+void Mattes::for_pixels(PixelRect rows, const Use& use) const {
+    for (int y0 = rows.y0; y0 < rows.y1; y0 += kBlockPx) {
+        for (std::uint32_t column = 0; column < columns_; ++column) {
+            const std::uint32_t number = place_of(crop_.x0, y0).block + column;
+            if (blocks_[number] == nullptr) continue;
+            Sorted sorted(*blocks_[number]);
+            for (std::uint16_t i = 0; i < kBlockPx * kBlockPx; ++i) {
+                if (!sorted.has_any(i)) continue;
+                Pixel pixel = sorted.pixel(i);
+                pixel.x = crop_.x0 + static_cast<int>(column) * kBlockPx + i % kBlockPx;
+                pixel.y = y0 + i / kBlockPx;
+                use(pixel);
+            }
+        }
+    }
+}
+
+}  // namespace burin

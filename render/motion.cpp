@@ -1,0 +1,33 @@
+#include "render/motion.h"
+
+#include <algorithm>
+
+namespace burin {
+
+glm::vec2 motion_at(const SurfaceSet& now, const SurfaceSet& next, SurfaceId surface, glm::dvec2 place) {
+    glm::dvec3 corners[3], origin, ray;
+    now.view_corners(surface, corners);
+    now.projection.view_ray(place, origin, ray);
+    const glm::dvec3 a = corners[1] - corners[0], b = corners[2] - corners[0], area = glm::cross(a, b);
+    const double facing = glm::dot(area, ray);
+    glm::dvec3 point = (corners[0] + corners[1] + corners[2]) / 3.0;  // of a triangle seen edge-on
+    if (facing != 0) {  // as the layer Z has it: no nearer and no farther than the triangle
+        const double distance = glm::dot(area, corners[0] - origin) / facing;
+        const double nearest = std::min({-corners[0].z, -corners[1].z, -corners[2].z}),
+                     farthest = std::max({-corners[0].z, -corners[1].z, -corners[2].z});
+        point = origin + ray * std::clamp(distance, nearest, farthest);
+    }
+    // The same combination of the corners in the next frame.
+    const glm::dvec3 from_corner = point - corners[0];
+    const double square = glm::dot(area, area);
+    if (!(square > 0)) return glm::vec2(0.0f);
+    const double of_a = glm::dot(glm::cross(from_corner, b), area) / square,
+                 of_b = glm::dot(glm::cross(a, from_corner), area) / square;
+    next.view_corners(surface, corners);
+    const glm::dvec3 moved = corners[0] + of_a * (corners[1] - corners[0]) + of_b * (corners[2] - corners[0]);
+    if (!next.projection.orthographic && !(-moved.z > 0)) return glm::vec2(0.0f);
+    const glm::dvec2 way = next.projection.to_pixel(moved) - now.projection.to_pixel(point);
+    return {static_cast<float>(way.x), static_cast<float>(-way.y)};
+}
+
+}  // namespace burin

@@ -1,0 +1,139 @@
+#include "strokes/tile_mattes.h"
+
+#include <algorithm>
+
+namespace burin {
+namespace {
+
+constexpr float kMaskSamples = StrokeMask::kRows * StrokeMask::kColumns;
+
+/// Brings shares above 0 so that their sum stays, where it is from 0 to 1.
+template <typename Chosen>
+void clamp_sum(std::vector<LineShare>& lines, const Chosen& is_chosen) {
+    float sum = 0, positive = 0;
+    for (LineShare& line : lines) {
+        if (!is_chosen(line)) continue;
+        sum += line.share;
+        line.share = std::max(line.share, 0.0f);
+        positive += line.share;
+    }
+    const float scale = positive > 0 ? std::clamp(sum, 0.0f, 1.0f) / positive : 0.0f;
+    for (LineShare& line : lines) {
+        if (is_chosen(line)) line.share *= scale;
+    }
+}
+
+}  // namespace
+
+TileMattes::TileMattes(const Frame& frame, Mattes& mattes, const FilterTable* filter, const TileKernels& kernels)
+    : mattes_(mattes),
+      filter_(filter),
+      reach_(filter != nullptr ? FilterTable::kReach : 0),
+      kernels_(kernels),
+      projection_(frame.surfaces.projection),
+      line_owners_(frame),
+      owners_(kernels) {}
+
+void TileMattes::begin(PixelRect tile) {
+    tile_ = tile;
+    owners_.reset({tile.x0 - reach_, tile.y0 - reach_, tile.x1 + reach_, tile.y1 + reach_});
+    for (const std::uint32_t i : used_) {
+        pixels_[i].lines.clear();
+        pixels_[i].opaque = 0;
+    }
+    used_.clear();
+    const auto count = static_cast<std::size_t>(tile.width()) * static_cast<std::size_t>(tile.height());
+    if (pixels_.size() < count) pixels_.resize(count);
+}
+
+void TileMattes::add_piece(const LinePiece& piece, double radius_px, double width_px, std::uint32_t group) {
+    OwnerMasks::Line line;
+    line.group = group;
+    line.drawn_as = piece.drawn_as;
+    line.invisibility = piece.invisibility;
+    line.owner = line_owners_.of(piece);
+    line.width_px = static_cast<float>(width_px);
+    owners_.add({{piece.from.x, piece.from.y}, {piece.to.x, piece.to.y}, radius_px, radius_px}, piece.nearness_from,
+                piece.nearness_to, line);
+}
+
+void TileMattes::add_to(int x, int y, const OwnerMasks::Line& line, const Kind& kind, float share) {
+    if (x < tile_.x0 || y < tile_.y0 || x >= tile_.x1 || y >= tile_.y1) return;
+    const auto i = static_cast<std::uint32_t>((y - tile_.y0) * tile_.width() + (x - tile_.x0));
+    PixelShares& pixel = pixels_[i];
+    if (pixel.lines.empty()) used_.push_back(i);
+    if (kind.is_opaque) pixel.opaque += share;
+    for (LineShare& known : pixel.lines) {
+        if (known.drawn_as != line.drawn_as || known.is_hidden != kind.is_hidden || known.is_below != kind.is_below ||
+            known.set != kind.set || known.owner != line.owner)
+            continue;
+        known.share += share;
+        return;
+    }
+    pixel.lines.push_back(
+        {mattes_.place_of(x, y), line.drawn_as, kind.is_hidden, kind.is_below, kind.set, line.owner, share});
+}
+
+void TileMattes::add_share(int column, int row, const StrokeMask& samples, const OwnerMasks::Line& line,
+                           const Kind& kind) {
+    const int x = owners_.rect().x0 + column, y = owners_.rect().y0 + row;
+    if (filter_ == nullptr) {
+        add_to(x, y, line, kind, kind.strength * (static_cast<float>(count(samples)) / kMaskSamples));
+        return;
+    }
+    const FilterTable::Shares shares = filter_->shares_of(samples);
+    for (int dy = 0; dy < FilterTable::kSide; ++dy) {
+        for (int dx = 0; dx < FilterTable::kSide; ++dx) {
+            add_to(x + dx - FilterTable::kReach, y + dy - FilterTable::kReach, line, kind,
+                   kind.strength * shares[static_cast<std::size_t>(dy)][static_cast<std::size_t>(dx)]);
+        }
+    }
+}
+
+void TileMattes::add_spot(int column, int row, const OwnerMasks::Line& line, float coverage) {
+    const int x = owners_.rect().x0 + column, y = owners_.rect().y0 + row;
+    if (!(coverage > 0) || x < tile_.x0 || y < tile_.y0 || x >= tile_.x1 || y >= tile_.y1) return;
+    batch_.spots.push_back({mattes_.place_of(x, y), line.drawn_as, line.invisibility, line.owner,
+                            static_cast<float>(projection_.distance(static_cast<double>(line.nearness))),
+                            line.width_px, coverage});
+}
+
+void TileMattes::add(int column, int row, const StrokeMask& seen, const Kind& kind) {
+    owners_.split(column, row, kind.group, seen, [&](const OwnerMasks::Line& line, const StrokeMask& samples) {
+        if (mattes_.wants_shares()) add_share(column, row, samples, line, kind);
+        if (mattes_.wants_spots())
+            add_spot(column, row, line, kind.strength * (static_cast<float>(count(samples)) / kMaskSamples));
+    });
+}
+
+/// Cuts off what a filter's negative lobes take away, and makes what lies below visible strokes a share of what these
+/// leave, as it is drawn.
+void TileMattes::bring_into_range(PixelShares& pixel) const {
+    const auto is_above = [](const LineShare& line) { return !line.is_below; };
+    const auto is_below = [](const LineShare& line) { return line.is_below; };
+    if (filter_ != nullptr) {
+        clamp_sum(pixel.lines, is_above);
+        clamp_sum(pixel.lines, is_below);
+    }
+    float below = 0;
+    for (const LineShare& line : pixel.lines) below += line.is_below ? line.share : 0;
+    if (below == 0) return;
+    const float left = 1.0f - std::clamp(pixel.opaque, 0.0f, 1.0f);
+    const float scale = left > 0 ? std::min(1.0f / left, 1.0f / std::max(below, 1e-6f)) : 0.0f;
+    for (LineShare& line : pixel.lines) {
+        if (line.is_below) line.share *= scale;
+    }
+}
+
+void TileMattes::finish() {
+    std::sort(used_.begin(), used_.end());
+    for (const std::uint32_t i : used_) {
+        bring_into_range(pixels_[i]);
+        for (const LineShare& line : pixels_[i].lines) {
+            if (line.share > 0) batch_.lines.push_back(line);
+        }
+    }
+    mattes_.add(batch_);
+}
+
+}  // namespace burin
