@@ -18,6 +18,7 @@
 #include "base/stopwatch.h"
 #include "cli/job.h"
 #include "cli/output_options.h"
+#include "cli/seen_surfaces.h"
 #include "cli/sheet_views.h"
 #include "cli/vector_output.h"
 #include "image/image_io.h"
@@ -147,8 +148,11 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method, b
             "burin: note: --bits and --background are for PNG and TIFF; an EXR is half precision without paper\n",
             stderr);
     }
-    if (is_vector(output.format) && frame.scene->surfaces.shading == SurfaceShading::lambert) {
-        std::fputs("burin: note: a vector file has lines only; the surfaces are left out\n", stderr);
+    const SurfaceShading shading = frame.scene->surfaces.shading;
+    const bool has_look = shading != SurfaceShading::paper && shading != SurfaceShading::none;
+    if (is_vector(output.format) && has_look && !draws_regions(*frame.scene, a)) {
+        std::fprintf(stderr, "burin: note: --page %s has lines only; the surfaces are left out\n",
+                     std::string(page_of(a.page).name).c_str());
     }
     const auto note_if_unused = [&](bool is_given, const char* option, std::string_view user) {
         if (!is_given || method.name == user) return;
@@ -295,6 +299,8 @@ void run_render(const Arguments& a) {
         if (VectorStats& paths = times.paths.emplace(); views.empty()) {
             const FoundLines lines = find_styled_lines(frame, run, film, stats);
             drawing = draw_paths(lines, frame, a, paths, stats.notes);
+            if (draws_regions(scene, a))
+                draw_regions(seen_surfaces(scene, frame.camera, frame.crop, run), drawing, paths, stats.notes);
         } else {
             stats = sheet.draw_as_paths(run, film, drawing, paths);
         }
