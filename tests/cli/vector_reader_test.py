@@ -102,4 +102,5 @@ def main():
             assert db >= least_db, f"{scene}: {db:.1f} dB"
 
 
-main()
+if __name__ == "__main__":
+    main()
