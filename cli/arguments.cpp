@@ -52,7 +52,7 @@ void add_file_options(CLI::App& app, Texts& t) {
     app.add_option(
         "--chord-sag", t.vector.chord_sag,
         "vector files: how much farther they may be from straight parts between vertices, in pixels, 0 to 10 "
-        "(default 0.05); more makes circles of coarse polygons");
+        "(default: as much as --tolerance); more makes circles of coarse polygons");
     app.add_option("--dashes", t.vector.dashes,
                    "vector files: pattern (default), the viewer cuts dashes, or real, each dash is a path");
     app.add_option("--group", t.vector.group,

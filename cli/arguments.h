@@ -58,7 +58,7 @@ struct Arguments {
     std::optional<std::array<int, 2>> pixel;
     std::string background;
     VectorGrouping grouping = VectorGrouping::line_class;
-    double tolerance_px = 0.02, chord_sag_px = 0.05;
+    double tolerance_px = 0.02, chord_sag_px = 0.02;
     bool cuts_dashes = false;         ///< of vector files; else dashes are left to the viewer
     bool names_paths = true;          ///< paths in vector files have ids and data-*
     bool merges_paths = false;        ///< in vector files, where ends meet

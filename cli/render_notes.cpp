@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cli/seen_surfaces.h"
 #include "methods/gbuffer/gbuffer.h"
 #include "methods/patel/patel.h"
 #include "render/picture_notes.h"
@@ -48,8 +49,11 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method, b
             "burin: note: --bits and --background are for PNG and TIFF; an EXR is half precision without paper\n",
             stderr);
     }
-    if (is_vector(output.format) && frame.scene->surfaces.shading == SurfaceShading::lambert) {
-        std::fputs("burin: note: a vector file has lines only; the surfaces are left out\n", stderr);
+    const SurfaceShading shading = frame.scene->surfaces.shading;
+    const bool has_look = shading != SurfaceShading::paper && shading != SurfaceShading::none;
+    if (is_vector(output.format) && has_look && !draws_regions(*frame.scene, a)) {
+        std::fprintf(stderr, "burin: note: --page %s has lines only; the surfaces are left out\n",
+                     std::string(page_of(a.page).name).c_str());
     }
     const auto note_if_unused = [&](bool is_given, const char* option, std::string_view user) {
         if (!is_given || method.name == user) return;

@@ -152,7 +152,9 @@ void run_restyle(const Arguments& a) {
     if (has_paths) {
         drawing = draw_paths(file.lines, frame, a, paths, notes);
         finish_drawing(scene.picture, a, drawing, paths, notes);
-        if (!file.surface.pixels.empty()) notes.push_back("a vector file has lines only; the surfaces are left out");
+        if (!file.surface.pixels.empty())
+            notes.push_back(
+                "surfaces were saved as pixels, which a vector file has none of; render has them as regions");
     } else {
         draw_found_lines(frame, file.lines, output.threads, film, notes);
     }

@@ -5,6 +5,7 @@
 
 #include "base/stream_store.h"
 #include "cli/job.h"
+#include "cli/seen_surfaces.h"
 #include "methods/abuffer.h"
 #include "output/paths/view_sheet.h"
 
@@ -54,8 +55,11 @@ RenderStats SheetViews::draw_as_paths(const RunOptions& run, Film& film, VectorD
         RenderStats found;
         const FoundLines lines = find_styled_lines(frame, run, film, found);
         VectorStats paths;
-        add_view(draw_paths(lines, frame, arguments, paths, found.notes),
-                 std::string(kStandardViewNames[static_cast<std::size_t>(view.view)]), drawing);
+        VectorDrawing own = draw_paths(lines, frame, arguments, paths, found.notes);
+        const PixelRect cell = cell_of(view.camera.area, frame.width, frame.height);
+        if (draws_regions(scene, arguments))
+            draw_regions(seen_surfaces(scene, view.camera, cell, run), own, paths, found.notes);
+        add_view(std::move(own), std::string(kStandardViewNames[static_cast<std::size_t>(view.view)]), drawing);
         add(found, sum);
         stats.strokes += paths.strokes;
         stats.chained += paths.chained;
@@ -63,6 +67,7 @@ RenderStats SheetViews::draw_as_paths(const RunOptions& run, Film& film, VectorD
         stats.chain_s += paths.chain_s;
         stats.clean_s += paths.clean_s;
         stats.fit_s += paths.fit_s;
+        stats.regions_s += paths.regions_s;
     }
     return sum;
 }

@@ -12,7 +12,7 @@ namespace burin {
 
 /// What draws the views of --views on one sheet.
 struct SheetViews {
-    const Scene& scene;
+    Scene& scene;
     const Arguments& arguments;
     const std::vector<ViewOnSheet>& views;
     const PreparedScene* prepared = nullptr;

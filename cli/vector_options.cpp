@@ -11,6 +11,7 @@ void fill_vector_options(const VectorTexts& t, Arguments& a) {
         a.tolerance_px = number("--tolerance", t.tolerance);
         if (!(a.tolerance_px >= 0.001 && a.tolerance_px <= 10)) fail("--tolerance", "must be from 0.001 to 10 pixels");
     }
+    a.chord_sag_px = a.tolerance_px;
     if (!t.chord_sag.empty()) {
         a.chord_sag_px = number("--chord-sag", t.chord_sag);
         if (!(a.chord_sag_px >= 0 && a.chord_sag_px <= 10)) fail("--chord-sag", "must be from 0 to 10 pixels");

@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "base/atomic_file.h"
+#include "base/stopwatch.h"
 #include "output/paths/path_order.h"
+#include "output/paths/surface_regions.h"
 #include "output/vector_files.h"
 #include "shading/ink/ink_lines.h"
 
@@ -23,6 +25,18 @@ VectorDrawing draw_paths(const FoundLines& lines, const Frame& frame, const Argu
                         " strokes that vary in them have their means");
     }
     return drawing;
+}
+
+void draw_regions(const SurfaceGrid& seen, VectorDrawing& drawing, VectorStats& stats,
+                  std::vector<std::string>& notes) {
+    const Stopwatch watch;
+    add_surface_regions(seen, drawing);
+    stats.regions_s = watch.seconds();
+    if (seen.mean_objects > 0) {
+        notes.push_back("a region has one colour: " + std::to_string(seen.mean_objects) +
+                        (seen.mean_objects == 1 ? " object that varies in it has its mean"
+                                                : " objects that vary in it have their means"));
+    }
 }
 
 void finish_drawing(const PictureSettings& picture, const Arguments& a, VectorDrawing& drawing, VectorStats& stats,
@@ -67,6 +81,7 @@ void write_vector(const VectorDrawing& drawing, const Arguments& a, const Output
 
 void add_stages(JsonWriter& json, const VectorStats& stats) {
     json.key("chain").value(stats.chain_s).key("clean").value(stats.clean_s).key("fit").value(stats.fit_s);
+    json.key("regions").value(stats.regions_s);
 }
 
 void add_counts(JsonWriter& json, const VectorStats& stats) {

@@ -7,6 +7,7 @@
 #include "cli/arguments.h"
 #include "output/film_files.h"
 #include "output/paths/make_paths.h"
+#include "output/paths/surface_grid.h"
 #include "render/frame.h"
 
 namespace burin {
@@ -15,6 +16,9 @@ namespace burin {
 /// users should know.
 VectorDrawing draw_paths(const FoundLines& lines, const Frame& frame, const Arguments& arguments, VectorStats& stats,
                          std::vector<std::string>& notes);
+
+/// Adds what is seen of surfaces to a drawing, below its lines. `notes`: gets what users should know.
+void draw_regions(const SurfaceGrid& seen, VectorDrawing& drawing, VectorStats& stats, std::vector<std::string>& notes);
 
 /// Gives a drawing its paper, and makes of it what the page of the arguments asks for. `notes`: gets
 /// what users should know.

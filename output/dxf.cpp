@@ -80,6 +80,10 @@ class DxfWriter {
                             (renamed_ == 1 ? " layer are" : " layers are") +
                             " not those of objects: they have letters, digits, $, - and _ only, at most 31");
         }
+        if (regions_ > 0) {
+            notes.push_back("DXF R12 has no filled regions: " + std::to_string(regions_) +
+                            (regions_ == 1 ? " region of a surface is" : " regions of surfaces are") + " left out");
+        }
         add_note(transparent_, " drawn opaque", notes);
         add_note(outlines_, " the outline of a stroke whose width varies, not filled", notes);
         add_note(recolored_, " in the nearest of 255 colours", notes);
@@ -100,6 +104,11 @@ class DxfWriter {
         std::map<std::string, int> counts;           // of names that were wanted
         std::set<std::string> taken;
         for (const VectorGroup& g : drawing_.groups) {
+            if (g.is_surface) {
+                regions_ += g.path_count;
+                layer_of_group_.push_back(0);
+                continue;
+            }
             std::string prefix = g.is_hidden ? "HIDDEN_" : "VISIBLE_";
             if (g.is_hidden && g.invisibility > 0) prefix += std::to_string(g.invisibility) + "_";
             const bool is_object = drawing_.grouping == VectorGrouping::object;
@@ -202,6 +211,7 @@ class DxfWriter {
         group(0, "SECTION");
         group(2, "ENTITIES");
         for (std::size_t i = 0; i < drawing_.groups.size(); ++i) {
+            if (drawing_.groups[i].is_surface) continue;
             for (const VectorPath& path : drawing_.paths_of(drawing_.groups[i]))
                 add_path(path, layers_[layer_of_group_[i]]);
         }
@@ -262,7 +272,7 @@ class DxfWriter {
     std::vector<Layer> layers_;
     std::vector<std::size_t> layer_of_group_;
     std::map<std::vector<float>, std::string> dashes_;
-    std::size_t renamed_ = 0, transparent_ = 0, outlines_ = 0, recolored_ = 0;
+    std::size_t regions_ = 0, renamed_ = 0, transparent_ = 0, outlines_ = 0, recolored_ = 0;
     std::string out_;
 };
 

@@ -135,7 +135,13 @@ std::string path_data(const VectorPath& path, std::span<const PathStep> steps) {
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const PathStep& step = steps[i];
         // The line that closes a path goes without saying.
-        if (path.is_closed && i + 1 == steps.size() && step.kind == PathStep::Kind::line && has_length) break;
+        const bool is_last = i + 1 == steps.size() || steps[i + 1].kind == PathStep::Kind::move;
+        if (path.is_closed && is_last && step.kind == PathStep::Kind::line && has_length) continue;
+        if (step.kind == PathStep::Kind::move) {
+            text.close();
+            text.move(step.to);
+            continue;
+        }
         const bool is_written = step.kind == PathStep::Kind::line    ? text.line(step.to)
                                 : step.kind == PathStep::Kind::cubic ? text.cubic(step)
                                                                      : text.arc(step);

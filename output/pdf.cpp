@@ -66,7 +66,9 @@ class PdfContent {
         for (std::size_t i = 0; i < steps.size(); ++i) {
             const PathStep& step = steps[i];
             const bool closes = path.is_closed && i + 1 == steps.size() && i > 0;
-            if (step.kind == PathStep::Kind::arc) {
+            if (step.kind == PathStep::Kind::move) {
+                out_ += "h " + place(step.to) + "m\n";
+            } else if (step.kind == PathStep::Kind::arc) {
                 for (const PathStep& part : cubics_of_arc(at, step, 2)) add_cubic(part);
             } else if (step.kind == PathStep::Kind::cubic) {
                 add_cubic(step);
@@ -76,7 +78,7 @@ class PdfContent {
             at = step.to;
         }
         if (path.is_closed) out_ += "h ";
-        out_ += style.is_outline() ? "f\n" : "S\n";
+        out_ += style.is_outline() ? "f\n" : style.is_region ? "B\n" : "S\n";
     }
 
     const std::map<std::pair<std::string, bool>, std::size_t>& states() const { return states_; }
@@ -109,6 +111,7 @@ class PdfContent {
             ink = glm::mix(drawing_.paper.value_or(glm::vec3(1.0f)), ink, std::clamp(style.opacity, 0.0f, 1.0f));
         }
         if (style.is_outline()) return set_fill(ink);
+        if (style.is_region) set_fill(ink);
         change(stroke_, color(ink, "G", "RG"));
         change(width_, short_number(static_cast<double>(style.width_px)) + " w\n");
         change(caps_, style.caps == StrokeCaps::round ? "1 J\n" : "0 J\n");

@@ -91,7 +91,7 @@ class SvgWriter {
         if (!options_.fingerprint.empty()) out_ += " data-burin-fingerprint=\"" + options_.fingerprint + "\"";
         root_ = defaults();
         if (!drawing_.paths.empty()) {
-            const Attributes common = common_of(drawing_.paths);
+            const Attributes common = common_of(drawing_.paths, true);
             for (const Attribute a : {kStroke, kWidth, kCaps}) {
                 if (!common[a].empty()) root_[a] = common[a];
             }
@@ -112,7 +112,7 @@ class SvgWriter {
     /// Adds the layer that begins with a group, and returns the number of the first group after it.
     std::size_t add_layer(std::size_t begin) {
         const VectorGroup& first = drawing_.groups[begin];
-        std::string name = first.is_hidden ? "hidden" : "visible";
+        std::string name = first.is_surface ? "surfaces" : first.is_hidden ? "hidden" : "visible";
         if (first.invisibility > 0) name += "-" + std::to_string(first.invisibility);
         out_ += "<g";
         add("id", unique("layer-" + name));
@@ -128,7 +128,7 @@ class SvgWriter {
     void add_group(const VectorGroup& group, const std::string& layer) {
         const std::span<const VectorPath> paths = drawing_.paths_of(group);
         Attributes common = common_of(paths);
-        const bool is_object = drawing_.grouping == VectorGrouping::object;
+        const bool is_object = group.is_surface || drawing_.grouping == VectorGrouping::object;
         std::string id = layer + "-" + view_prefix(group);
         if (is_object) {
             id += group.object == 0 ? "none" : "o" + hex(LineHash().add(object_name(group.object)).bits());
@@ -160,9 +160,12 @@ class SvgWriter {
         throw_if_interrupted();
         out_ += "<path";
         const std::span<const std::uint64_t> edges = drawing_.edges_of(path);
-        if (options_.has_names)
-            add("id",
-                unique(view_prefix(group) + (group.is_hidden ? "h" : "v") + (edges.empty() ? "" : hex(edges[0]))));
+        if (options_.has_names) {
+            const std::string id = group.is_surface
+                                       ? "s" + name_of_region(path)
+                                       : (group.is_hidden ? "h" : "v") + (edges.empty() ? "" : hex(edges[0]));
+            add("id", unique(view_prefix(group) + id));
+        }
         const Attributes own = attributes_of(path);
         for (std::size_t a = 0; a < kAttributeCount; ++a) {
             if (own[a].empty() || own[a] == inherited[a] || (a >= kStyleCount && !options_.has_names)) continue;
@@ -183,7 +186,11 @@ class SvgWriter {
         const VectorStyle& style = drawing_.styles[path.style];
         Attributes a = defaults();
         const std::string opacity = short_number(static_cast<double>(style.opacity));
-        if (style.is_outline()) {
+        if (style.is_region && !style.is_outline()) {
+            a[kFill] = a[kStroke] = hex_color(style.color);
+            a[kWidth] = short_number(static_cast<double>(style.width_px));
+            a[kCaps] = root_[kCaps];
+        } else if (style.is_outline()) {
             a[kFill] = hex_color(style.color);
             a[kFillOpacity] = opacity;
             a[kStroke] = "none";
@@ -197,15 +204,26 @@ class SvgWriter {
             set_dashes(style, path.dash_phase_px, a);
         }
         a[kObject] = path.object == 0 ? "" : object_name(path.object);
-        a[kInvisibility] = std::to_string(path.invisibility);
+        if (!style.is_region) a[kInvisibility] = std::to_string(path.invisibility);
         return a;
     }
-    /// Attributes that all of some paths have; the others are empty.
-    Attributes common_of(std::span<const VectorPath> paths) const {
+    /// A name of what is seen of an object in one colour.
+    std::string name_of_region(const VectorPath& path) const {
+        const VectorStyle& style = drawing_.styles[path.style];
+        LineHash hash;
+        hash.add(path.object == 0 ? std::string() : object_name(path.object));
+        hash.add(hex_color(style.color) + " " + short_number(static_cast<double>(style.opacity)));
+        return hex(hash.bits());
+    }
+    /// Attributes that all of some paths have; the others are empty. `of_lines`: the other paths do not count.
+    Attributes common_of(std::span<const VectorPath> paths, bool of_lines = false) const {
         Attributes common = attributes_of(paths.front());
-        for (const VectorPath& path : paths.subspan(1)) {
+        bool is_first = true;
+        for (const VectorPath& path : paths) {
             throw_if_interrupted();
+            if (of_lines && drawing_.styles[path.style].is_region) continue;
             const Attributes own = attributes_of(path);
+            if (std::exchange(is_first, false)) common = own;
             for (std::size_t a = 0; a < kAttributeCount; ++a) {
                 if (own[a] != common[a]) common[a].clear();
             }

@@ -9,10 +9,11 @@
 namespace burin {
 
 bool is_one_layer(const VectorGroup& a, const VectorGroup& b) {
-    return a.is_hidden == b.is_hidden && a.invisibility == b.invisibility;
+    return a.is_surface == b.is_surface && a.is_hidden == b.is_hidden && a.invisibility == b.invisibility;
 }
 
 std::string label_of_layer(const VectorGroup& group) {
+    if (group.is_surface) return "surfaces";
     if (!group.is_hidden) return "1 visible";
     if (group.invisibility == 0) return "2 hidden";
     return std::to_string(1 + group.invisibility) + " hidden " + std::to_string(group.invisibility);
@@ -20,7 +21,7 @@ std::string label_of_layer(const VectorGroup& group) {
 
 std::string label_of_group(const VectorDrawing& drawing, const VectorGroup& group) {
     std::string label = group.view > 0 ? drawing.views[group.view - 1] + ": " : "";
-    if (drawing.grouping == VectorGrouping::object)
+    if (group.is_surface || drawing.grouping == VectorGrouping::object)
         return label + (group.object > 0 ? drawing.objects[group.object - 1] : "no object");
     label += std::string(name_of(group.line_class));
     if (group.set < drawing.sets.size() && !drawing.sets[group.set].empty()) label += ", " + drawing.sets[group.set];

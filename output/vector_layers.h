@@ -13,7 +13,7 @@ namespace burin {
 /// Whether two groups that follow each other are in one layer: visible lines, or hidden ones, or those behind a number
 /// of surfaces.
 bool is_one_layer(const VectorGroup& a, const VectorGroup& b);
-/// "1 visible", "2 hidden", "3 hidden 2".
+/// "1 visible", "2 hidden", "3 hidden 2", "surfaces": plotters' programs look for numbers.
 std::string label_of_layer(const VectorGroup& group);
 /// What a group within a layer is: "crease, edges", or the name of an object; with views in front of it that of its.
 std::string label_of_group(const VectorDrawing& drawing, const VectorGroup& group);

@@ -9,6 +9,7 @@
 #include "base/limit_error.h"
 #include "base/stopwatch.h"
 #include "cli/render_notes.h"
+#include "cli/seen_surfaces.h"
 #include "cli/sheet_refusal.h"
 #include "cli/sheet_views.h"
 #include "cli/vector_output.h"
@@ -254,13 +255,17 @@ DrawnFrame FrameRenderer::draw(const OutputOptions& output, Progress* progress) 
 }
 
 RenderStats FrameRenderer::draw_picture(const Frame& frame, const RunOptions& run, Film& film, DrawnFrame& drawn) {
-    const SheetViews sheet{scene(), arguments_, views_, &posed_.prepared()};
+    const SheetViews sheet{posed_.scene(), arguments_, views_, &posed_.prepared()};
     if (!is_vector(drawn.output.format))
         return views_.empty() ? method_.render(frame, run, film) : sheet.draw(method_, run, film);
     RenderStats stats;
     if (VectorStats& paths = drawn.times.paths.emplace(); views_.empty()) {
         const FoundLines lines = find_styled_lines(frame, run, film, stats);
         drawn.drawing = draw_paths(lines, frame, arguments_, paths, stats.notes);
+        if (draws_regions(scene(), arguments_)) {
+            draw_regions(seen_surfaces(posed_.scene(), frame.camera, frame.crop, run), drawn.drawing, paths,
+                         stats.notes);
+        }
     } else {
         stats = sheet.draw_as_paths(run, film, drawn.drawing, paths);
     }

@@ -16,8 +16,8 @@ namespace {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 /// Ends that are no farther apart are at one place.
 constexpr double kTogetherPx = 1.0 / 16;
-/// Parts of one run may be so far apart.
-constexpr double kGapPx = 0.5;
+/// Parts of one run may be so far apart, and a line shorter than a pixel from the one that it goes on in.
+constexpr double kGapPx = 0.5, kCrumbPx = 1;
 /// Dashes go on if a pattern is off by no more than this.
 constexpr double kPhasePx = 1.0 / 8;
 /// Where more than two lines end, those belong together that turn by less than this cosine says.
@@ -30,9 +30,10 @@ class Chainer {
   public:
     explicit Chainer(const PathLines& lines) : lines_(lines), links_(lines.lines.size()) {}
 
-    PathLines chained() {
+    PathLines chained(bool joins_crumbs) {
         link();
         link_runs();
+        if (joins_crumbs) link_crumbs();
         PathLines result = lines_.without_points();
         result.edges.clear();
         links_.for_chains([&](std::vector<std::uint32_t>& ends, bool is_loop) { add_chain(ends, is_loop, result); });
@@ -81,49 +82,57 @@ class Chainer {
         return length;
     }
 
+    /// An end by rows and columns of cells; those at one place lie in neighbouring cells.
+    struct Cell {
+        std::int32_t row, column;
+        std::uint32_t end;
+        auto operator<=>(const Cell&) const = default;
+    };
+    static std::int32_t number(double at) {
+        return static_cast<std::int32_t>(std::floor(std::clamp(at / (2 * kTogetherPx), -1e9, 1e9)));
+    }
+    /// The end in sorted cells that lies nearest to a place, at most `reach_px` from it, of those that may be it;
+    /// kNone: there is none.
+    template <typename MayBe>
+    std::uint32_t nearest_end(const std::vector<Cell>& cells, glm::dvec2 p, double reach_px,
+                              const MayBe& may_be) const {
+        std::uint32_t found = kNone;
+        double nearest = reach_px;
+        const std::int32_t first = number(p.x - reach_px), last = number(p.x + reach_px);
+        for (std::int32_t row = number(p.y - reach_px); row <= number(p.y + reach_px); ++row) {
+            for (auto it = std::lower_bound(cells.begin(), cells.end(), Cell{row, first, 0});
+                 it != cells.end() && it->row == row && it->column <= last; ++it) {
+                const double distance = glm::distance(place(it->end), p);
+                if (distance > nearest || (distance == nearest && found != kNone) || !may_be(it->end)) continue;
+                nearest = distance;
+                found = it->end;
+            }
+        }
+        return found;
+    }
+
     void link() {
-        // Ends sorted by rows and columns of cells; those at one place lie in neighbouring cells.
-        struct Cell {
-            std::int32_t row, column;
-            std::uint32_t end;
-            auto operator<=>(const Cell&) const = default;
-        };
-        const auto number = [](double at) {
-            return static_cast<std::int32_t>(std::floor(std::clamp(at / (2 * kTogetherPx), -1e9, 1e9)));
-        };
-        std::vector<Cell> cells;
         for (std::uint32_t end = 0; end < 2 * lines_.lines.size(); ++end) {
             const PathLine& l = line(end);
             if (l.is_closed || lines_.styles[l.kind.style].is_outline()) continue;
             const glm::dvec2 p = place(end);
-            cells.push_back({number(p.y), number(p.x), end});
+            cells_.push_back({number(p.y), number(p.x), end});
         }
-        std::sort(cells.begin(), cells.end());
+        std::sort(cells_.begin(), cells_.end());
         // Each end belongs to the nearest of the places that are there, or begins one. These are not close together, so
         // few of them are looked at.
         std::vector<Cell> places;
         std::vector<std::uint32_t> place_of(2 * lines_.lines.size(), kNone);
-        for (const Cell& cell : cells) {
+        for (const Cell& cell : cells_) {
             throw_if_interrupted();
-            const glm::dvec2 p = place(cell.end);
-            std::uint32_t found = kNone;
-            double nearest = kTogetherPx;
-            for (std::int32_t row = number(p.y - kTogetherPx); row <= cell.row; ++row) {
-                const std::int32_t last = number(p.x + kTogetherPx);
-                for (auto it = std::lower_bound(places.begin(), places.end(), Cell{row, number(p.x - kTogetherPx), 0});
-                     it != places.end() && it->row == row && it->column <= last; ++it) {
-                    const double distance = glm::distance(place(it->end), p);
-                    if (distance > nearest || (distance == nearest && found != kNone)) continue;
-                    nearest = distance;
-                    found = it->end;
-                }
-            }
+            const std::uint32_t found =
+                nearest_end(places, place(cell.end), kTogetherPx, [](std::uint32_t) { return true; });
             if (found == kNone) places.push_back(cell);
             place_of[cell.end] = found == kNone ? cell.end : found;
         }
         std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;
-        ends.reserve(cells.size());
-        for (const Cell& cell : cells) ends.emplace_back(place_of[cell.end], cell.end);
+        ends.reserve(cells_.size());
+        for (const Cell& cell : cells_) ends.emplace_back(place_of[cell.end], cell.end);
         std::sort(ends.begin(), ends.end());
         std::vector<std::uint32_t> own;
         for (std::size_t begin = 0, end = 0; begin < ends.size(); begin = end) {
@@ -131,6 +140,22 @@ class Chainer {
             for (; end < ends.size() && ends[end].first == ends[begin].first; ++end) own.push_back(ends[end].second);
             throw_if_interrupted();
             link_place(own);
+        }
+    }
+
+    /// What is left that is shorter than a pixel goes on in the nearest line of its kind over a small gap, where this
+    /// one ends as well.
+    void link_crumbs() {
+        for (std::uint32_t end = 0; end < 2 * lines_.lines.size(); ++end) {
+            throw_if_interrupted();
+            const PathLine& l = line(end);
+            const VectorStyle& style = lines_.styles[l.kind.style];
+            if (!links_.is_free(end) || l.is_closed || style.is_outline() || !style.dash_px.empty()) continue;
+            if (length_of(end) >= kCrumbPx) continue;
+            const std::uint32_t found = nearest_end(cells_, place(end), kGapPx, [&](std::uint32_t other) {
+                return other / 2 != end / 2 && links_.is_free(other) && can_join(end, other);
+            });
+            if (found != kNone) links_.link(end, found);
         }
     }
 
@@ -269,10 +294,11 @@ class Chainer {
 
     const PathLines& lines_;
     EndLinks links_;
+    std::vector<Cell> cells_;  ///< of the ends that can be joined
 };
 
 }  // namespace
 
-PathLines chained_paths(const PathLines& lines) { return Chainer(lines).chained(); }
+PathLines chained_paths(const PathLines& lines, bool joins_crumbs) { return Chainer(lines).chained(joins_crumbs); }
 
 }  // namespace burin

@@ -12,8 +12,8 @@ namespace burin {
 struct FitBounds {
     double tolerance_px = 0.02;  ///< from the line's points
     /// From the straight parts between them, in addition, as far as a curve through the points is from its chords. The
-    /// chords of a coarse mesh are farther from one, and stay straight.
-    double chord_sag_px = 0.05;
+    /// chords of a coarse mesh are farther from one, and stay straight. As much as the tolerance, unless asked for.
+    double chord_sag_px = tolerance_px;
 };
 
 /// Adds the steps of a path along a line, and returns where it begins: at the line's first point, or near it if it is

@@ -91,7 +91,7 @@ VectorDrawing vector_drawing_of(InkedLines inked, const FoundLines& found, const
     stats.chained = lines.lines.size();
     stats.chain_s = watch.lap();
     // Of what is left, other lines are the only ones that go on in each other.
-    lines = chained_paths(cleaned_paths(lines, picture));
+    lines = chained_paths(cleaned_paths(lines, picture), true);
     stats.clean_s = watch.lap();
 
     sort_to_groups(options.grouping, lines.lines);

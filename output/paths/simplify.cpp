@@ -16,6 +16,7 @@ void simplify(std::span<const glm::dvec2> line, double bound_px, std::vector<glm
     // Parts of at most this many points are looked at as a whole, so that the work grows with the number of points.
     constexpr std::size_t kMostPoints = 256;
     if (line.empty()) return;
+    const std::size_t before = out.size();
     out.push_back(line.front());
     std::vector<std::pair<std::size_t, std::size_t>> parts;  // the next one last
     for (std::size_t begin = 0; begin + 1 < line.size(); begin += kMostPoints) {
@@ -34,11 +35,12 @@ void simplify(std::span<const glm::dvec2> line, double bound_px, std::vector<glm
             if (at != first) {
                 parts.emplace_back(at, last);
                 parts.emplace_back(first, at);
-            } else if (line[last] != out.back() || line.size() == 2) {
+            } else if (line[last] != out.back()) {
                 out.push_back(line[last]);
             }
         }
     }
+    if (line.size() > 1 && out.size() == before + 1) out.push_back(line.back());
 }
 
 }  // namespace burin

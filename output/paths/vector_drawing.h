@@ -20,7 +20,8 @@ namespace burin {
 struct VectorStyle {
     /// The full width of the pen, in pixels; 0: the path is the outline of its ink, and is filled.
     float width_px = 1;
-    glm::vec3 color{0.0f};  ///< linear RGB
+    bool is_region = false;  ///< filled, whether it has a stroke or not, which has the same colour
+    glm::vec3 color{0.0f};   ///< linear RGB
     float opacity = 1;
     InkBlend blend = InkBlend::over;
     StrokeCaps caps = StrokeCaps::round;  ///< joins are always round
@@ -32,7 +33,8 @@ struct VectorStyle {
 
 /// One step of a path, to where the next one begins.
 struct PathStep {
-    enum class Kind : std::uint8_t { line, cubic, arc };
+    /// `move`: of a filled path, closes the part before and begins another one.
+    enum class Kind : std::uint8_t { line, cubic, arc, move };
     Kind kind = Kind::line;
     bool is_large = false, is_clockwise = false;  ///< of an arc, as SVG has them, y downwards
     glm::dvec2 to{0.0};
@@ -58,6 +60,7 @@ struct VectorPath {
 
 /// Paths that lie above or below those of other groups, one after the other.
 struct VectorGroup {
+    bool is_surface = false;  ///< regions of one object; else lines
     bool is_hidden = false;
     std::uint8_t invisibility = 0;  ///< of all its paths if the drawing is grouped by that
     std::uint32_t set = 0;          ///< in VectorDrawing::sets
@@ -70,7 +73,8 @@ struct VectorGroup {
 /// What groups have in common, within visible and within hidden lines.
 enum class VectorGrouping : std::uint8_t { line_class, object, invisibility };
 
-/// The lines of a picture as paths, in the order in which they are drawn: what comes later lies above.
+/// The lines of a picture as paths, and its surfaces as filled ones, in the order in which they are drawn: what comes
+/// later lies above.
 struct VectorDrawing {
     int width_px = 0, height_px = 0;  ///< of the whole picture
     PixelRect crop;                   ///< what is shown of it

@@ -7,6 +7,7 @@ namespace burin {
 namespace {
 
 bool is_below(const VectorGroup& a, const VectorGroup& b) {
+    if (a.is_surface != b.is_surface) return a.is_surface;
     if (a.is_hidden != b.is_hidden) return a.is_hidden;
     return a.invisibility > b.invisibility;
 }

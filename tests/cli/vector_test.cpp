@@ -10,11 +10,13 @@ namespace {
 
 std::string scene_file(const std::string& name) { return std::string(BURIN_SOURCE_FOLDER) + "/scenes/" + name; }
 
+/// But for surfaces, which files of lines know as pixels only.
 TEST(VectorFiles, RenderAndRestyleWriteTheSame) {
     const TemporaryFolder folder;
     for (const char* const style : {"technical", "pencil"}) {
-        ASSERT_EQ(run_burin(folder.path(), {"render", scene_file("still_life.toml"), "-o", "a.svg", "-r", "160x120",
-                                            "-q", "--style", style, "--find", "all", "--save-lines", "a.lines"})
+        ASSERT_EQ(run_burin(folder.path(),
+                            {"render", scene_file("still_life.toml"), "-o", "a.svg", "-r", "160x120", "-q", "--style",
+                             style, "--find", "all", "--save-lines", "a.lines", "--set", "surfaces.shading=paper"})
                       .err,
                   "");
         ASSERT_EQ(
@@ -49,6 +51,53 @@ TEST(VectorFiles, OptionsSayWhatIsInThem) {
     EXPECT_TRUE(has(read_file(folder.file("a.json")), "\"clean\""));
 }
 
+/// Surfaces are filled below lines, glass lets through, and lines are those of a file without surfaces.
+TEST(VectorFiles, SurfacesAreFilled) {
+    const TemporaryFolder folder;
+    folder.write("a.toml", R"([camera]
+eye = [4, 3, 6]
+target = [0, 0, 0]
+[[material]]
+name = "red"
+color = "#d04030"
+[[material]]
+name = "glass"
+color = "#60d0a0"
+opacity = 0.4
+[[object]]
+name = "box"
+shape = "box"
+material = "red"
+[[object]]
+name = "pane"
+shape = "box"
+size = [1.5, 1.5, 0.02]
+material = "glass"
+translate = [0.3, 0.3, 1.6]
+)");
+    const auto file = [&](const std::string& name, std::vector<std::string> more) {
+        std::vector<std::string> arguments = {"render", "a.toml", "-o", name, "-r", "320x240", "-q"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_EQ(run_burin(folder.path(), arguments).err, "");
+        return read_file(folder.file(name));
+    };
+    const auto lines_of = [](const std::string& svg) { return svg.substr(svg.find("<g id=\"layer-visible\"")); };
+    const std::string plain = file("a.svg", {});
+    const std::string flat = file("a.svg", {"--set", "surfaces.shading=flat"});
+    EXPECT_EQ(plain.find("surfaces"), std::string::npos);
+    EXPECT_EQ(lines_of(plain), lines_of(flat));
+    EXPECT_LT(flat.find("layer-surfaces"), flat.find("layer-visible"));
+    EXPECT_NE(flat.find("inkscape:label=\"box\" fill=\"#d04030\" stroke=\"#d04030\" stroke-width=\"0.5\""),
+              std::string::npos);
+    EXPECT_NE(flat.find("fill=\"#60d0a0\" stroke=\"none\" fill-opacity=\"0.6"), std::string::npos);  // two panes
+    EXPECT_EQ(flat, file("b.svg", {"--set", "surfaces.shading=flat", "-j", "3"}));
+    EXPECT_EQ(file("a.svg", {"--set", "surfaces.shading=flat", "--page", "plotter"}).find("surfaces"),
+              std::string::npos);
+    const std::string sheet = file("a.svg", {"--set", "surfaces.shading=flat", "--views", "front,top"});
+    EXPECT_EQ(sheet.find("layer-surfaces"), sheet.rfind("layer-surfaces"));
+    EXPECT_NE(sheet.find("id=\"top-s"), std::string::npos);
+}
+
 TEST(VectorFiles, WhatCannotBeIsRefusedOrNoted) {
     const TemporaryFolder folder;
     const std::string cube = scene_file("cube.toml");
@@ -62,7 +111,10 @@ TEST(VectorFiles, WhatCannotBeIsRefusedOrNoted) {
     EXPECT_NE(err({"-o", "a.svg", "--dashes", "some"}).find("pattern or real"), std::string::npos);
     EXPECT_NE(err({"-o", "a.svg", "--group", "colour"}).find("class, object or qi"), std::string::npos);
     EXPECT_NE(err({"-o", "a.png", "--group", "object"}).find("are for vector files"), std::string::npos);
-    EXPECT_NE(err({"-o", "a.svg", "--set", "surfaces.shading=lambert"}).find("surfaces are left out"),
+    EXPECT_EQ(err({"-o", "a.svg", "--set", "surfaces.shading=flat"}), "");
+    EXPECT_NE(err({"-o", "a.pdf", "--set", "surfaces.shading=flat", "--page", "patent"}).find("surfaces are left out"),
+              std::string::npos);
+    EXPECT_NE(err({"-o", "a.dxf", "--set", "surfaces.shading=flat"}).find("1 region of a surface is left out"),
               std::string::npos);
     EXPECT_NE(err({"-o", "a.svg", "--style", "pencil"}).find("one colour and opacity"), std::string::npos);
 }

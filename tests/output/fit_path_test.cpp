@@ -75,8 +75,8 @@ TEST(FitPath, IsWithinTheToleranceBothWays) {
 
 TEST(FitPath, AnEllipseIsArcs) {
     Points line;
-    for (int i = 0; i <= 60; ++i) {
-        const double a = i * 2 * 3.14159265358979 / 60, x = 40 * std::cos(a), y = 25 * std::sin(a);
+    for (int i = 0; i <= 120; ++i) {
+        const double a = i * 2 * 3.14159265358979 / 120, x = 40 * std::cos(a), y = 25 * std::sin(a);
         line.push_back({100 + 0.8 * x - 0.6 * y, 90 + 0.6 * x + 0.8 * y});
     }
     line.back() = line.front();
@@ -145,6 +145,31 @@ TEST(FitPath, CoarsePolygonsStay) {
     steps.clear();
     fit_path(line, true, {0.02, 1}, steps);  // unless that is asked for
     EXPECT_EQ(steps.size(), 4u);
+}
+
+/// Nothing is farther from the chords of a mesh than twice the tolerance, unless more is asked for: a circle of 60
+/// vertices, whose chords are 0.05 px off, is none at 0.02 px.
+TEST(FitPath, TheSagOfChordsIsAtMostTheTolerance) {
+    Points line;
+    for (int i = 0; i <= 60; ++i)
+        line.push_back({200 + 40 * std::cos(i * 0.1047197551196598), 150 + 40 * std::sin(i * 0.1047197551196598)});
+    line.back() = line.front();
+    for (const double tolerance : {0.02, 0.06}) {
+        std::vector<PathStep> steps;
+        const glm::dvec2 start = fit_path(line, true, {.tolerance_px = tolerance}, steps);
+        double off = 0;
+        for (const glm::dvec2 p : flattened(start, steps)) off = std::max(off, distance_to(p, line));
+        EXPECT_LE(off, 2 * tolerance);
+        EXPECT_EQ(steps.front().kind == PathStep::Kind::line, tolerance == 0.02);
+    }
+}
+
+TEST(Simplify, DotsStayDots) {
+    for (std::size_t count = 2; count < 5; ++count) {
+        Points out = {{1, 1}};
+        simplify(Points(count, {20, 10}), 0.02, out);
+        EXPECT_EQ(out, (Points{{1, 1}, {20, 10}, {20, 10}})) << count;
+    }
 }
 
 }  // namespace

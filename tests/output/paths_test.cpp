@@ -110,6 +110,22 @@ TEST(ChainPaths, DashesGoOnWhereTheirPatternDoes) {
     }
 }
 
+/// What is shorter than a pixel goes on in the nearest line of its kind that ends close by.
+TEST(ChainPaths, CrumbsGoOnOverSmallGaps) {
+    for (int what = 0; what < 5; ++what) {
+        Lines lines;
+        lines.add({{0, 20}, {20, 20}});
+        PathLine& crumb = lines.add({{20.2, 20}, {what == 1 ? 23 : 20.8, 20.1}}, 2);
+        if (what == 2) crumb.kind.order.drawn_as = LineClass::crease;
+        if (what == 3) {  // ends close by, but they go on in each other
+            for (const glm::dvec2 to : {glm::dvec2(20, 0), glm::dvec2(20, 40), glm::dvec2(40, 20)})
+                lines.add({{20, 20}, to});
+        }
+        const PathLines chained = chained_paths(lines.all(), what != 4);
+        EXPECT_EQ(chained.lines.size(), what == 0 ? 1u : what == 3 ? 3u : 2u) << what;
+    }
+}
+
 /// Many lines between few places: each of them is in one path, once.
 TEST(ChainPaths, AllLinesAreInPathsOnce) {
     test::Random random(3);
