@@ -238,8 +238,7 @@ class TransparentTile {
                                   {(samples_.first_column + f.columns / count + 0.5) / s,
                                    (samples_.first_row + f.rows / count + 0.5) / s}});
         }
-        colors_.resize(fragments_.size());
-        shader_->shade(fragments_, colors_.data());
+        shader_->shade(fragments_, colors_);
     }
 
     glm::vec4 shaded_color(std::uint32_t number, int x) const {
@@ -289,7 +288,7 @@ class TransparentTile {
     std::optional<FragmentShader> shader_;
     std::vector<Found> row_;  // of a row of pixels, from the left
     std::vector<SurfaceFragment> fragments_;
-    std::vector<glm::vec3> colors_;
+    FragmentColors colors_;
 };
 
 }  // namespace

@@ -301,8 +301,7 @@ void ReferenceTile::shade_samples(int row0, int column0) {
             fragments_.push_back({{facet.object, facet.triangle}, sample_position(row, column)});
         }
     }
-    colors_.resize(fragments_.size());
-    shader_->shade(fragments_, colors_.data());
+    shader_->shade(fragments_, colors_);
 }
 
 glm::vec4 ReferenceTile::color_of(Facet facet, glm::dvec2 at) const {
