@@ -229,6 +229,8 @@ class TransparentTile {
             ++own->count;
             own->columns += column;
             own->rows += row;
+            const int side = samples_.samples_per_pixel;
+            own->samples |= std::uint64_t{1} << (row % side * side + column % side);
         });
         fragments_.clear();
         const double s = samples_.samples_per_pixel;
@@ -236,7 +238,9 @@ class TransparentTile {
             const double count = f.count;
             fragments_.push_back({screen_.surface_of(f.number),
                                   {(samples_.first_column + f.columns / count + 0.5) / s,
-                                   (samples_.first_row + f.rows / count + 0.5) / s}});
+                                   (samples_.first_row + f.rows / count + 0.5) / s},
+                                  1,
+                                  {static_cast<std::uint8_t>(samples_.samples_per_pixel), f.samples}});
         }
         shader_->shade(fragments_, colors_);
     }
@@ -271,6 +275,7 @@ class TransparentTile {
         int x;
         std::uint32_t number;
         int count, columns, rows;  // of its samples there, and the sums over them
+        std::uint64_t samples = 0;
     };
 
     const Frame& frame_;

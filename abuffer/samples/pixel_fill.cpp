@@ -248,6 +248,7 @@ void PixelFiller::add_fragments(const SampleTile& samples, int x, int y) {
     struct Found {
         std::uint32_t id, count;
         int columns, rows;  // sums over its samples
+        std::uint64_t samples;
     };
     std::array<Found, 64> found;
     std::size_t count = 0;
@@ -258,17 +259,20 @@ void PixelFiller::add_fragments(const SampleTile& samples, int x, int y) {
             const std::uint32_t id = ids[column] >> 1;
             std::size_t i = count;
             while (i > 0 && found[i - 1].id != id) --i;
-            if (i == 0) found[count++] = {id, 0, 0, 0};
+            if (i == 0) found[count++] = {id, 0, 0, 0, 0};
             Found& own = found[i == 0 ? count - 1 : i - 1];
             ++own.count;
             own.columns += column;
             own.rows += row;
+            own.samples |= std::uint64_t{1} << (row * s + column);
         }
     }
     for (std::size_t i = 0; i < count; ++i) {
         const double scale = 1.0 / (s * static_cast<double>(found[i].count)), half = 0.5 / s;
-        fragments_.push_back(
-            {screen_.surface_of(found[i].id), {x + half + found[i].columns * scale, y + half + found[i].rows * scale}});
+        fragments_.push_back({screen_.surface_of(found[i].id),
+                              {x + half + found[i].columns * scale, y + half + found[i].rows * scale},
+                              1,
+                              {static_cast<std::uint8_t>(s), found[i].samples}});
         samples_of_.push_back(static_cast<std::uint8_t>(found[i].count));
     }
     fragments_of_.push_back(static_cast<std::uint8_t>(count));

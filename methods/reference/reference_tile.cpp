@@ -298,7 +298,8 @@ void ReferenceTile::shade_samples(int row0, int column0) {
         for (int column = column0; column < column0 + per_pixel_; ++column) {
             const Facet facet = sample(row, column);
             if (facet.is_background()) continue;
-            fragments_.push_back({{facet.object, facet.triangle}, sample_position(row, column)});
+            fragments_.push_back(
+                {{facet.object, facet.triangle}, sample_position(row, column), 1, PixelSamples::place_alone()});
         }
     }
     shader_->shade(fragments_, colors_);

@@ -1,6 +1,7 @@
 #include "shading/surface/fragment_shader.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "shading/surface/hatching.h"
@@ -37,7 +38,7 @@ FragmentShader::FragmentShader(const ShadedSurfaces& surfaces)
     for (const S v : {S::u, S::v, S::Cv, S::attribute}) of_file.set(number_of(v));
     needs_places_ = look_.needs_lit || reads_light || is_on_object || (look_.variables & ~(of_pixel | of_file)).any();
     needs_shares_ = !look_.layers.empty() || look_.variables[number_of(S::kr)];
-    needs_changes_ = look_.shading == SurfaceShading::toon || is_on_object;
+    needs_changes_ = look_.needs_lit || look_.shading == SurfaceShading::toon || is_on_object;
     columns_.resize(look_.inputs.size() * kColumn);
     column_list_.resize(look_.inputs.size());
     std::size_t results = 0;
@@ -94,6 +95,7 @@ std::size_t FragmentShader::add_places(const SurfaceFragment& fragment, std::siz
     if (!is_known) runs_.push_back({begin, begin, triangle_number(fragment.surface)});
     runs_.back().end = count_ = begin + added;
     std::fill_n(&triangle_at_[begin], added, runs_.back().triangle);
+    if (look_.needs_lit) std::fill_n(&samples_[begin], added, fragment.samples);
     std::fill_n(&y_[begin], added, fragment.place.y);
     for (std::size_t i = 0; i < added; ++i)
         x_[begin + i] = fragment.place.x + static_cast<double>(static_cast<std::int32_t>(first + i));
@@ -134,7 +136,7 @@ void FragmentShader::shade_block(const std::array<float*, 3>& colors) {
         for (std::size_t i = 0; i < count_; ++i) shares_[i] = triangle_of(i).shares_at(pixel(i));
     }
     if (look_.needs_lit) {
-        for (std::size_t i = 0; i < count_; ++i) lit_[i] = lit_share(i, pixel(i));
+        for (std::size_t i = 0; i < count_; ++i) lit_[i] = lit_share(i);
     }
     if (!look_.program.outputs().empty()) evaluate(colors);
     if (look_.shading == SurfaceShading::expression) return;
@@ -257,23 +259,58 @@ float FragmentShader::file_value(std::size_t i, std::size_t layer, std::size_t c
     return row[component];
 }
 
-float FragmentShader::lit_share(std::size_t i, glm::dvec2 pixel) const {
+double FragmentShader::change_per_px(std::size_t i, const ViewLight& light) const {
+    const SurfacePlace place = this->place(i);
+    const glm::dvec3 way = light.towards(place.position);
+    glm::dvec2 change;
+    for (int axis = 0; axis < 2; ++axis) {
+        change[axis] = glm::dot(changes_[i].normal[axis], way);
+        if (!light.is_at_point) continue;
+        const double distance = std::max(glm::length(light.place - place.position), 1e-300);
+        const glm::dvec3& moved = changes_[i].position[axis];
+        change[axis] -= glm::dot(place.normal, moved - way * glm::dot(way, moved)) / distance;
+    }
+    return glm::length(change);
+}
+
+float FragmentShader::lit_share(std::size_t i) const {
+    const ViewLight& light = surfaces_.lights().front();
+    const double cosine = light.cosine(place(i).normal, place(i).position);
+    // A surface is in its own shadow where it is turned away. Where it begins to be, a pixel has a share of both.
+    const double half_change = 0.5 * change_per_px(i, light);
+    if (cosine <= -half_change) return 0;
+    const double turned_to = cosine < half_change ? std::clamp(0.5 + 0.5 * cosine / half_change, 0.0, 1.0) : 1.0;
+    return static_cast<float>(turned_to) * free_share(i);
+}
+
+float FragmentShader::free_share(std::size_t i) const {
     const ShadowCasters& casters = *surfaces_.casters();
     const ShadedTriangle& triangle = triangle_of(i);
-    const SurfacePlace place = this->place(i);
-    // A surface is in its own shadow where it is turned away.
-    if (surfaces_.lights().front().cosine(place.normal, place.position) <= 0) return 0;
-    const auto count_lit = [&](int side) {
-        int lit = 0;
-        for (int k = 0; k < side * side; ++k) {
-            const glm::dvec2 at((k % side + 0.5) / side - 0.5, (k / side + 0.5) / side - 0.5);
-            lit += casters.is_lit(triangle.shadow_place(pixel + at), triangle.id()) ? 1 : 0;
-        }
-        return lit;
+    const auto is_free = [&](glm::dvec2 at) {
+        return casters.is_lit(triangle.shadow_place(at), triangle.id()) ? 1 : 0;
     };
-    const int of_four = count_lit(2);
-    if (of_four == 0 || of_four == 4) return of_four == 0 ? 0.0f : 1.0f;
-    return static_cast<float>(count_lit(kFineSide)) / (kFineSide * kFineSide);
+    const PixelSamples& own = samples_[i];
+    if (own.bits == 0) {
+        const auto count_free = [&](int side) {
+            int free = 0;
+            for (int k = 0; k < side * side; ++k)
+                free += is_free(pixel(i) + glm::dvec2((k % side + 0.5) / side - 0.5, (k / side + 0.5) / side - 0.5));
+            return free;
+        };
+        const int of_four = count_free(2);
+        if (of_four == 0 || of_four == 4) return of_four == 0 ? 0.0f : 1.0f;
+        return static_cast<float>(count_free(kFineSide)) / (kFineSide * kFineSide);
+    }
+    if (own.side == 0) return static_cast<float>(is_free(pixel(i)));
+    // Beyond its samples the triangle may be below another surface, in whose shadow it is of course.
+    const glm::dvec2 corner = glm::floor(pixel(i));
+    int free = 0, count = 0;
+    for (std::uint64_t bits = own.bits; bits != 0; bits &= bits - 1, ++count) {
+        const int sample = std::countr_zero(bits);
+        free += is_free(corner +
+                        glm::dvec2(sample % own.side + 0.5, sample / own.side + 0.5) / static_cast<double>(own.side));
+    }
+    return static_cast<float>(free) / static_cast<float>(count);
 }
 
 FragmentShader::Light FragmentShader::light_at(std::size_t i, bool in_shadow) const {
@@ -291,16 +328,7 @@ FragmentShader::Light FragmentShader::light_at(std::size_t i, bool in_shadow) co
         is_first = false;
         brightest.value = value;
         if (!needs_changes_) continue;
-        const glm::dvec3 way = light.towards(place.position);
-        glm::dvec2 change;
-        for (int axis = 0; axis < 2; ++axis) {
-            change[axis] = glm::dot(changes_[i].normal[axis], way);
-            if (!light.is_at_point) continue;
-            const double distance = std::max(glm::length(light.place - place.position), 1e-300);
-            const glm::dvec3& moved = changes_[i].position[axis];
-            change[axis] -= glm::dot(place.normal, moved - way * glm::dot(way, moved)) / distance;
-        }
-        brightest.change_per_px = glm::length(change);
+        brightest.change_per_px = change_per_px(i, light);
     }
     return brightest;
 }

@@ -11,11 +11,19 @@
 
 namespace burin {
 
+/// Samples of a pixel: of side x side ones, bit row * side + column for each.
+struct PixelSamples {
+    std::uint8_t side = 0;   ///< 1 to 8; 0: the place alone, or with no bit all of the pixel
+    std::uint64_t bits = 0;  ///< 0: all of the pixel
+    static constexpr PixelSamples place_alone() { return {0, 1}; }
+};
+
 /// What one triangle has of a pixel: the middle of its samples there. Or of several pixels of a row, whole ones.
 struct SurfaceFragment {
     SurfaceId surface;
     glm::dvec2 place;         ///< in pixels; of the first one
     std::uint32_t count = 1;  ///< of pixels
+    PixelSamples samples{};   ///< where shadows are looked for
 };
 
 /// Linear RGB of fragments, part by part.
@@ -72,8 +80,12 @@ class FragmentShader {
     float file_value(std::size_t i, std::size_t layer, std::size_t component) const;
     /// With `in_shadow`: where the key light is hidden.
     Light light_at(std::size_t i, bool in_shadow) const;
+    /// By how much the cosine towards a light changes over a pixel.
+    double change_per_px(std::size_t i, const ViewLight& light) const;
     /// The share of a pixel's part that the key light reaches.
-    float lit_share(std::size_t i, glm::dvec2 pixel) const;
+    float lit_share(std::size_t i) const;
+    /// The share that no caster hides.
+    float free_share(std::size_t i) const;
     glm::vec3 toon(std::size_t i, bool in_shadow) const;
     glm::vec3 gooch(std::size_t i, bool in_shadow) const;
     glm::vec3 hatch(std::size_t i, glm::dvec2 pixel) const;
@@ -105,6 +117,7 @@ class FragmentShader {
     Column x_{}, y_{};                             // in pixels
     std::array<Column, 3> position_{}, normal_{};  // in view space
     std::array<SurfaceChanges, kBlock> changes_{};
+    std::array<PixelSamples, kBlock> samples_{};
     std::array<float, kBlock> lit_{};
     std::array<std::array<double, 3>, kBlock> shares_{};  // of a triangle's corners
     std::vector<const float*> column_list_;
