@@ -1,5 +1,6 @@
 #include "base/instruction_set.h"
 #include "kernels/expression_kernels.h"
+#include "kernels/place_kernels.h"
 
 // Compiled with AVX-512 where the compiler can (see CMakeLists.txt), and used where the machine can.
 #ifdef __AVX512VL__
@@ -13,6 +14,11 @@ const ExpressionKernels* avx512_expression_kernels() {
     return has_instruction_set(InstructionSet::avx512) ? &kernels : nullptr;
 }
 
+const PlaceKernels* avx512_place_kernels() {
+    static constexpr PlaceKernels kernels = place_kernels_named("avx512");
+    return has_instruction_set(InstructionSet::avx512) ? &kernels : nullptr;
+}
+
 }  // namespace burin
 
 #else
@@ -20,6 +26,7 @@ const ExpressionKernels* avx512_expression_kernels() {
 namespace burin {
 
 const ExpressionKernels* avx512_expression_kernels() { return nullptr; }
+const PlaceKernels* avx512_place_kernels() { return nullptr; }
 
 }  // namespace burin
 

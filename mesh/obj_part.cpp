@@ -39,6 +39,7 @@ class ObjParser {
           is_whole_(is_whole),
           has_uv_(attributes.uv),
           has_colors_(attributes.color),
+          keeps_all_(attributes.all_named),
           lines_(text) {}
 
     ObjPart parse() {
@@ -169,23 +170,31 @@ class ObjParser {
         if (has_colors_) parse_color(scan);
     }
 
+    /// Reads up to as many numbers as there is room for, and returns how many. What is no number is an error for who
+    /// asked for these values alone.
+    std::size_t parse_values(LineScanner& scan, std::span<float> values, const char* of) {
+        std::size_t count = 0;
+        for (double number = 0; count < values.size() && scan.number(number); ++count)
+            values[count] = static_cast<float>(number);
+        if (count == values.size() || keeps_all_) return count;
+        const std::string_view rest = scan.rest();
+        if (!rest.empty() && rest.front() != '#')
+            fail(std::string(of) + " needs numbers, found '" + printable(rest) + "'; repair or re-export the file");
+        return count;
+    }
     /// A colour of three numbers behind a vertex. One number there is a weight.
     void parse_color(LineScanner& scan) {
         std::array<float, 3> color{};
-        std::size_t count = 0;
-        for (double number = 0; count < 3 && scan.number(number); ++count) color[count] = static_cast<float>(number);
-        if (count < 3) return;
+        if (parse_values(scan, color, "the colour of a vertex") < 3) return;
         color_rows_.resize(soup_.positions.size() - 1, AttributeLayer::kNoRow);
         color_rows_.push_back(static_cast<std::uint32_t>(colors_.row_count()));
         colors_.add_row(color);
     }
-    /// What is no number counts as 0, as what stands there has no other use.
+    /// One number or two; the second one is 0 unless it is there.
     void parse_texture_coordinates(LineScanner& scan) {
         std::array<float, 2> uv{};
-        for (float& number : uv) {
-            double value = 0;
-            if (scan.number(value)) number = static_cast<float>(value);
-        }
+        if (parse_values(scan, uv, "a texture coordinate") == 0 && !keeps_all_)
+            fail("a texture coordinate has no numbers; repair or re-export the file");
         uv_.add_row(uv);
     }
     /// Of a corner "7/1", "7/1/2", "7/-1".
@@ -280,6 +289,7 @@ class ObjParser {
     const std::string_view text_;
     const bool is_whole_;
     const bool has_uv_, has_colors_;  // whether they are asked for
+    const bool keeps_all_;            // values of all kinds, whether they are read or not
     LineReader lines_;
     std::size_t first_line_ = 0;  // of the statement
     ObjPart part_;

@@ -150,11 +150,14 @@ class PlyBodyReader {
         return value;
     }
 
-    /// A value that may be anything where nobody reads it: a word that is no number counts as 0.
-    double number_or_0(const PlyProperty& property) {
+    /// A value that somebody asked for. Where all are kept, whether they are read or not, a word that is no number
+    /// counts as 0.
+    double number_of_attribute(const PlyProperty& property) {
         double value = 0;
-        if (!values_.number(property.type, value) && !values_.skip(property.type, 1)) fail_value();
-        return value;
+        if (values_.number(property.type, value)) return value;
+        if (values_.at_end()) fail_value();
+        if (wish_.all_named && values_.skip(property.type, 1)) return 0;
+        fail("property '" + printable(property.name) + "' is no number; repair or re-export the file");
     }
 
     /// The length of a list that starts here; at most what the file has room for.
@@ -199,7 +202,7 @@ class PlyBodyReader {
             glm::dvec3 position;
             for (std::size_t i = 0; i < axis_of.size(); ++i) {
                 if (has_attributes && attributes.has(i)) {
-                    attributes.set(i, number_or_0(element.properties[i]));
+                    attributes.set(i, number_of_attribute(element.properties[i]));
                 } else if (axis_of[i] < 0) {
                     skip_property(element.properties[i]);
                 } else {
@@ -345,7 +348,7 @@ class PlyBodyReader {
 
     void read_corner_uv(const PlyProperty& property) {
         const std::uint64_t length = list_length(property);
-        for (std::uint64_t k = 0; k < length; ++k) corner_uv_.add(number_or_0(property));
+        for (std::uint64_t k = 0; k < length; ++k) corner_uv_.add(number_of_attribute(property));
     }
 
     void read_strips(const PlyElement& element) {

@@ -72,10 +72,24 @@ std::string path_of(const toml::table& root, const Override& o, std::string_view
                 listed(names));
 }
 
+enum class ParameterKind { none, number, color };
+
+ParameterKind kind_of(const toml::node* value) {
+    if (value == nullptr || value->is_table()) return ParameterKind::none;
+    const auto text = value->value<std::string_view>();
+    return value->is_array() || (text && text->starts_with('#')) ? ParameterKind::color : ParameterKind::number;
+}
+
 }  // namespace
 
 void apply_sheet_override(toml::table& root, const Override& o) {
-    apply_override(root, o, path_of(root, o, std::string_view(o.key).substr(std::string_view("style.").size())));
+    const std::string path = path_of(root, o, std::string_view(o.key).substr(std::string_view("style.").size()));
+    const bool is_parameter = path.starts_with("parameters.");
+    const ParameterKind before = is_parameter ? kind_of(root.at_path(path).node()) : ParameterKind::none;
+    apply_override(root, o, path);
+    if (before == ParameterKind::none || kind_of(root.at_path(path).node()) == before) return;
+    fail(o, before == ParameterKind::color ? "the parameter is a colour, not a number"
+                                           : "the parameter is a number, not a colour");
 }
 
 }  // namespace burin

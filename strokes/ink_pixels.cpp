@@ -249,7 +249,20 @@ const InkRegions& InkPixels::lay(const Choose& choose) {
     return regions_;
 }
 
+/// Puts a pixel that has one visible spot, which lets a part of what is below through.
+void InkPixels::put_one(const InkSpot& spot, int x, int y) {
+    const float share = static_cast<float>(count(*spot.mask)) / kSamples;
+    const float covered = share * spot.alpha, left = 1.0f - share + share * (1.0f - spot.alpha);  // as of an InkStack
+    LineInk ink;
+    ink.color = glm::vec4(share * (spot.alpha * spot.color), 1.0f - left);
+    for (int c = 0; c < 4; ++c) ink.half_color[static_cast<std::size_t>(c)] = Film::to_half(ink.color[c]);
+    ink.coverage[static_cast<std::size_t>(spot.drawn_as)] = Film::to_half(covered);
+    film_.draw_over(x, y, ink);
+}
+
 void InkPixels::put_any(int x, int y) {
+    const InkSpot& first = spots_.front().spot;
+    if (spots_.size() == 1 && !first.is_share && !first.is_hidden && !first.multiplies) return put_one(first, x, y);
     const bool has_visible = has_any(is_visible), has_hidden = has_any(is_hidden);
     const bool multiplies = has_any([](const InkSpot& spot) { return spot.multiplies; });
     InkStack visible;

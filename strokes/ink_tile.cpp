@@ -216,8 +216,12 @@ void InkTile::draw_parts(bool is_thin, bool body_only) {
             PenCone cone = part.cone;
             cone.body_only = body_only;
             if (!is_cut) {
-                one_.draw(kernels_, cone, rect_,
-                          [&](int column, int row, const StrokeMask& mask) { take(placed, column, row, mask); });
+                const auto use = [&](int column, int row, const StrokeMask& mask) { take(placed, column, row, mask); };
+                if (body_only || placed.segment.is_constant()) {
+                    one_.draw(kernels_, cone, rect_, use);
+                } else {  // its body is there already
+                    one_.draw_ends(kernels_, cone, rect_, use);
+                }
             } else if (body_only) {
                 use_cut(placed, part, [&](int column, int row, const StrokeMask& mask) {
                     cut_masks_.push_back({column, row, mask});

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <glm/glm.hpp>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
@@ -102,7 +103,37 @@ class PieceMasks {
         }
     }
 
+    /// draw(), but only the pixels near its ends: in others it is nothing but its body.
+    template <typename Use>
+    void draw_ends(const TileKernels& kernels, const PenCone& cone, PixelRect rect, const Use& use) {
+        const EndsOfCone ends(cone);
+        draw(kernels, cone, rect, [&](int column, int row, const StrokeMask& mask) {
+            if (ends.may_reach(rect.x0 + column + 0.5, rect.y0 + row + 0.5)) use(column, row, mask);
+        });
+    }
+
   private:
+    /// Tells where discs have samples beyond the body: not where its sides touch both of them.
+    class EndsOfCone {
+      public:
+        explicit EndsOfCone(const PenCone& c) : from_{c.from[0], c.from[1]} {
+            along_ = glm::dvec2(c.to[0], c.to[1]) - from_;
+            const double length = glm::length(along_);
+            if (!(length > 0)) return;
+            along_ /= length;
+            const double slope = (c.radius_from - c.radius_to) / length, half_px = std::numbers::sqrt2 / 2 + kMarginPx;
+            first_ = std::max(c.radius_from * slope, 0.0) + half_px;
+            last_ = length + std::min(c.radius_to * slope, 0.0) - half_px;
+        }
+        bool may_reach(double x, double y) const {
+            const double at = glm::dot(glm::dvec2(x, y) - from_, along_);
+            return !(at > first_ && at < last_);
+        }
+
+      private:
+        glm::dvec2 from_, along_;
+        double first_ = 0, last_ = 0;
+    };
     static constexpr double kMarginPx = 1.0 / 8;  // for shifted samples, and rounding
 
     std::vector<StrokeMask, CacheLineAllocator<StrokeMask>> masks_;

@@ -253,6 +253,8 @@ class TransparentTile {
             ++own->count;
             own->columns += column;
             own->rows += row;
+            const int side = samples_.samples_per_pixel;
+            own->samples |= std::uint64_t{1} << (row % side * side + column % side);
         });
         fragments_.clear();
         const double s = samples_.samples_per_pixel;
@@ -260,10 +262,11 @@ class TransparentTile {
             const double count = f.count;
             fragments_.push_back({screen_.surface_of(f.number),
                                   {(samples_.first_column + f.columns / count + 0.5) / s,
-                                   (samples_.first_row + f.rows / count + 0.5) / s}});
+                                   (samples_.first_row + f.rows / count + 0.5) / s},
+                                  1,
+                                  {static_cast<std::uint8_t>(samples_.samples_per_pixel), f.samples}});
         }
-        colors_.resize(fragments_.size());
-        shader_->shade(fragments_, colors_.data());
+        shader_->shade(fragments_, colors_);
     }
 
     glm::vec4 shaded_color(std::uint32_t number, int x) const {
@@ -296,6 +299,7 @@ class TransparentTile {
         int x;
         std::uint32_t number;
         int count, columns, rows;  // of its samples there, and the sums over them
+        std::uint64_t samples = 0;
     };
 
     const Frame& frame_;
@@ -320,7 +324,7 @@ class TransparentTile {
     std::optional<FragmentShader> shader_;
     std::vector<Found> row_;  // of a row of pixels, from the left
     std::vector<SurfaceFragment> fragments_;
-    std::vector<glm::vec3> colors_;
+    FragmentColors colors_;
 };
 
 }  // namespace

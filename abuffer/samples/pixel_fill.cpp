@@ -42,11 +42,22 @@ bool is_all_of(const std::uint32_t* ids, int stride, int s) {
     return others >> 1 == 0;
 }
 
+/// is_all_of() for a row of pixels with so many columns of samples.
+bool is_row_of(const std::uint32_t* ids, int stride, int s, int columns) {
+    const std::uint32_t id = ids[0];
+    for (int row = 0; row < s; ++row, ids += stride) {
+        std::uint32_t others = 0;
+        for (int column = 0; column < columns; ++column) others |= ids[column] ^ id;
+        if (others >> 1 != 0) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 PixelFiller::PixelFiller(const Frame& frame, const ScreenSurfaces& screen, const TileKernels& kernels,
                          const ShadedSurfaces* shaded)
-    : frame_(frame), screen_(screen), kernels_(kernels) {
+    : frame_(frame), screen_(screen), kernels_(kernels), place_kernels_(best_place_kernels()) {
     if (shaded != nullptr) fragment_shader_.emplace(*shaded);
     const int per_pixel = samples_per_pixel_of(frame);
     const auto samples = static_cast<float>(per_pixel * per_pixel);
@@ -237,6 +248,7 @@ void PixelFiller::add_fragments(const SampleTile& samples, int x, int y) {
     struct Found {
         std::uint32_t id, count;
         int columns, rows;  // sums over its samples
+        std::uint64_t samples;
     };
     std::array<Found, 64> found;
     std::size_t count = 0;
@@ -247,61 +259,87 @@ void PixelFiller::add_fragments(const SampleTile& samples, int x, int y) {
             const std::uint32_t id = ids[column] >> 1;
             std::size_t i = count;
             while (i > 0 && found[i - 1].id != id) --i;
-            if (i == 0) found[count++] = {id, 0, 0, 0};
+            if (i == 0) found[count++] = {id, 0, 0, 0, 0};
             Found& own = found[i == 0 ? count - 1 : i - 1];
             ++own.count;
             own.columns += column;
             own.rows += row;
+            own.samples |= std::uint64_t{1} << (row * s + column);
         }
     }
     for (std::size_t i = 0; i < count; ++i) {
         const double scale = 1.0 / (s * static_cast<double>(found[i].count)), half = 0.5 / s;
-        fragments_.push_back(
-            {screen_.surface_of(found[i].id), {x + half + found[i].columns * scale, y + half + found[i].rows * scale}});
+        fragments_.push_back({screen_.surface_of(found[i].id),
+                              {x + half + found[i].columns * scale, y + half + found[i].rows * scale},
+                              1,
+                              {static_cast<std::uint8_t>(s), found[i].samples}});
         samples_of_.push_back(static_cast<std::uint8_t>(found[i].count));
     }
     fragments_of_.push_back(static_cast<std::uint8_t>(count));
 }
 
-void PixelFiller::put_fragments(const SampleTile& samples, PixelRect rect, Film& film) {
+void PixelFiller::find_fragments(const SampleTile& samples, PixelRect rect) {
     fragments_.clear();
     samples_of_.clear();
     fragments_of_.clear();
+    row_kinds_.clear();
     const int s = samples.samples_per_pixel;
+    const auto all = static_cast<std::uint8_t>(s * s);
     for (int y = rect.y0; y < rect.y1; ++y) {
         const std::uint32_t* ids = &samples.ids[samples.index(rect.x0 * s, y * s)];
         std::uint32_t last_number = SampleTile::kBackground >> 1;
         SurfaceId last = kBackground;
-        for (int x = rect.x0; x < rect.x1; ++x, ids += s) {
-            if (!is_all_of(ids, samples.stride, s)) {
-                add_fragments(samples, x, y);
-                continue;
-            }
-            const std::uint32_t number = ids[0] >> 1;
+        const auto add = [&](std::uint32_t number, int begin, int end) {
             const bool is_surface = number != SampleTile::kBackground >> 1;
-            fragments_of_.push_back(is_surface ? 1 : 0);
-            if (!is_surface) continue;
+            const auto count = static_cast<std::size_t>(end - begin);
+            fragments_of_.insert(fragments_of_.end(), count, is_surface ? 1 : 0);
+            if (!is_surface) return;
             if (number != last_number) last = screen_.surface_of(number);
             last_number = number;
-            fragments_.push_back({last, {x + 0.5, y + 0.5}});
-            samples_of_.push_back(static_cast<std::uint8_t>(s * s));
+            samples_of_.insert(samples_of_.end(), count, all);
+            fragments_.push_back({last, {begin + 0.5, y + 0.5}, static_cast<std::uint32_t>(count)});
+        };
+        if (is_row_of(ids, samples.stride, s, rect.width() * s)) {
+            add(ids[0] >> 1, rect.x0, rect.x1);
+            row_kinds_.push_back(last_number != SampleTile::kBackground >> 1 ? RowKind::of_one : RowKind::mixed);
+            continue;
+        }
+        row_kinds_.push_back(RowKind::mixed);
+        for (int x = rect.x0; x < rect.x1; ++x, ids += s) {
+            if (is_all_of(ids, samples.stride, s)) {
+                add(ids[0] >> 1, x, x + 1);
+            } else {
+                add_fragments(samples, x, y);
+            }
         }
     }
-    colors_.resize(fragments_.size());
-    fragment_shader_->shade(fragments_, colors_.data());
+}
+
+void PixelFiller::put_fragments(const SampleTile& samples, PixelRect rect, Film& film) {
+    find_fragments(samples, rect);
+    fragment_shader_->shade(fragments_, colors_);
+    const int s = samples.samples_per_pixel;
     const float scale = 1.0f / static_cast<float>(s * s);
+    const auto width = static_cast<std::size_t>(rect.width());
     std::size_t pixel = 0, fragment = 0;
-    glm::vec4 last(0.0f);
-    HalfColor half = half_color(last);
+    constexpr std::uint16_t kHalfOne = 0x3C00;
     for (int y = rect.y0; y < rect.y1; ++y) {
-        for (int x = 0; x < rect.width(); ++x, ++pixel) {
+        if (row_kinds_[static_cast<std::size_t>(y - rect.y0)] == RowKind::of_one) {
+            for (std::size_t c = 0; c < 3; ++c)
+                place_kernels_.halves(&colors_.parts[c][fragment], width, row_.color[c]);
+            std::fill_n(row_.color[3], width, kHalfOne);
+            pixel += width;
+            fragment += width;
+            film.put_colors(rect.x0, rect.x1, y, {row_.color[0], row_.color[1], row_.color[2], row_.color[3]});
+            continue;
+        }
+        for (std::size_t x = 0; x < width; ++x, ++pixel) {
             glm::vec4 sum(0.0f);
             for (int i = 0; i < fragments_of_[pixel]; ++i, ++fragment)
                 sum += glm::vec4(colors_[fragment], 1.0f) * (static_cast<float>(samples_of_[fragment]) * scale);
-            if (sum != last) half = half_color(sum);
-            last = sum;
-            for (std::size_t c = 0; c < half.size(); ++c) row_.color[c][x] = half[c];
+            for (std::size_t c = 0; c < 4; ++c) row_.sum[c][x] = sum[static_cast<int>(c)];
         }
+        for (std::size_t c = 0; c < 4; ++c) place_kernels_.halves(row_.sum[c], width, row_.color[c]);
         film.put_colors(rect.x0, rect.x1, y, {row_.color[0], row_.color[1], row_.color[2], row_.color[3]});
     }
 }

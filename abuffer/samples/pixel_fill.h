@@ -42,6 +42,7 @@ class PixelFiller {
     void put_shaded(const SampleTile& samples, PixelRect rect, int y, Film& film);
     glm::vec4 color(std::uint32_t number, int x, int y);
     /// Puts the colours of a part whose shading varies over surfaces.
+    void find_fragments(const SampleTile& samples, PixelRect rect);
     void put_fragments(const SampleTile& samples, PixelRect rect, Film& film);
     /// Says whose a part's pixels are.
     void add_mattes(const SampleTile& samples, PixelRect rect, Mattes& mattes);
@@ -53,6 +54,7 @@ class PixelFiller {
     const Frame& frame_;
     const ScreenSurfaces& screen_;
     const TileKernels& kernels_;
+    const PlaceKernels& place_kernels_;
     std::vector<std::uint32_t> numbers_;         // of triangles; the first one is none
     std::vector<TriangleGeometry> geometries_;   // of them
     std::vector<std::uint16_t> geometry_at_;     // per pixel of the tile, which of them
@@ -61,9 +63,11 @@ class PixelFiller {
     TriangleGeometry shaded_geometry_{};
     std::optional<FragmentShader> fragment_shader_;
     std::vector<SurfaceFragment> fragments_;  // of a part, pixel by pixel
+    enum class RowKind : std::uint8_t { of_one, mixed };
+    std::vector<RowKind> row_kinds_;          // of a part: whether one triangle has all samples of a row
     std::vector<std::uint8_t> samples_of_;    // of each of them: how many
     std::vector<std::uint8_t> fragments_of_;  // of each pixel: how many
-    std::vector<glm::vec3> colors_;           // of each fragment
+    FragmentColors colors_;                   // of each fragment
     MatteBatch matte_batch_;
     std::uint32_t owned_number_ = 0xFFFFFFFFu;  // whose owner is:
     MatteOwner owner_;
@@ -75,7 +79,8 @@ class PixelFiller {
     std::vector<Owned> owned_;  // of a pixel
     struct Row {
         std::uint16_t color[4][kWidth];
-        static_assert(kWidth % 4 == 0);  // see GeometryRow
+        static_assert(kWidth % 4 == 0 && kWidth % kRoomBehindHalves == 0);  // see GeometryRow, PlaceKernels
+        float sum[4][kWidth];
         float distance[kWidth], normal[3][kWidth];
         std::uint32_t ids[3][kWidth];
     } row_;

@@ -298,11 +298,11 @@ void ReferenceTile::shade_samples(int row0, int column0) {
         for (int column = column0; column < column0 + per_pixel_; ++column) {
             const Facet facet = sample(row, column);
             if (facet.is_background()) continue;
-            fragments_.push_back({{facet.object, facet.triangle}, sample_position(row, column)});
+            fragments_.push_back(
+                {{facet.object, facet.triangle}, sample_position(row, column), 1, PixelSamples::place_alone()});
         }
     }
-    colors_.resize(fragments_.size());
-    shader_->shade(fragments_, colors_.data());
+    shader_->shade(fragments_, colors_);
 }
 
 glm::vec4 ReferenceTile::color_of(Facet facet, glm::dvec2 at) const {

@@ -1,6 +1,7 @@
 #include "shading/surface/fragment_shader.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "shading/surface/hatching.h"
@@ -26,7 +27,10 @@ constexpr int kFineSide = 4;
 }  // namespace
 
 FragmentShader::FragmentShader(const ShadedSurfaces& surfaces)
-    : surfaces_(surfaces), look_(surfaces.look()), projection_(surfaces.surfaces().projection) {
+    : surfaces_(surfaces),
+      look_(surfaces.look()),
+      projection_(surfaces.surfaces().projection),
+      kernels_(best_place_kernels()) {
     const bool is_on_object = look_.shading == SurfaceShading::hatch && look_.hatch_space == HatchSpace::object;
     const bool reads_light = look_.shading == SurfaceShading::toon || look_.shading == SurfaceShading::gooch;
     SurfaceVariables of_pixel, of_file;
@@ -34,8 +38,8 @@ FragmentShader::FragmentShader(const ShadedSurfaces& surfaces)
     for (const S v : {S::u, S::v, S::Cv, S::attribute}) of_file.set(number_of(v));
     needs_places_ = look_.needs_lit || reads_light || is_on_object || (look_.variables & ~(of_pixel | of_file)).any();
     needs_shares_ = !look_.layers.empty() || look_.variables[number_of(S::kr)];
-    needs_changes_ = look_.shading == SurfaceShading::toon || is_on_object;
-    columns_.resize(look_.inputs.size() * kBlock);
+    needs_changes_ = look_.needs_lit || look_.shading == SurfaceShading::toon || is_on_object;
+    columns_.resize(look_.inputs.size() * kColumn);
     column_list_.resize(look_.inputs.size());
     std::size_t results = 0;
     for (const ExpressionOutput& output : look_.program.outputs()) results += output.components;
@@ -59,9 +63,43 @@ FragmentShader::FragmentShader(const ShadedSurfaces& surfaces)
     }
 }
 
-void FragmentShader::shade(std::span<const SurfaceFragment> fragments, glm::vec3* colors) {
-    for (std::size_t first = 0; first < fragments.size(); first += kBlock)
-        shade_block(fragments.subspan(first, std::min(kBlock, fragments.size() - first)), colors + first);
+void FragmentShader::shade(std::span<const SurfaceFragment> fragments, FragmentColors& colors) {
+    std::size_t all = 0, done = 0;
+    for (const SurfaceFragment& fragment : fragments) all += fragment.count;
+    colors.resize(all);
+    const auto finish_block = [&] {
+        shade_block({&colors.parts[0][done], &colors.parts[1][done], &colors.parts[2][done]});
+        done += count_;
+        begin_block();
+    };
+    begin_block();
+    for (const SurfaceFragment& fragment : fragments) {
+        for (std::size_t added = 0; added < fragment.count;) {
+            if (count_ == kBlock) finish_block();
+            added += add_places(fragment, added);
+        }
+    }
+    if (count_ > 0) finish_block();
+}
+
+void FragmentShader::begin_block() {
+    count_ = 0;
+    triangles_.clear();
+    slots_.fill(0);
+    runs_.clear();
+}
+
+std::size_t FragmentShader::add_places(const SurfaceFragment& fragment, std::size_t first) {
+    const std::size_t begin = count_, added = std::min(kBlock - begin, fragment.count - first);
+    const bool is_known = !runs_.empty() && triangles_[runs_.back().triangle].id() == fragment.surface;
+    if (!is_known) runs_.push_back({begin, begin, triangle_number(fragment.surface)});
+    runs_.back().end = count_ = begin + added;
+    std::fill_n(&triangle_at_[begin], added, runs_.back().triangle);
+    if (look_.needs_lit) std::fill_n(&samples_[begin], added, fragment.samples);
+    std::fill_n(&y_[begin], added, fragment.place.y);
+    for (std::size_t i = 0; i < added; ++i)
+        x_[begin + i] = fragment.place.x + static_cast<double>(static_cast<std::int32_t>(first + i));
+    return added;
 }
 
 std::uint16_t FragmentShader::triangle_number(SurfaceId id) {
@@ -75,103 +113,117 @@ std::uint16_t FragmentShader::triangle_number(SurfaceId id) {
     return static_cast<std::uint16_t>(triangles_.size() - 1);
 }
 
-void FragmentShader::shade_block(std::span<const SurfaceFragment> fragments, glm::vec3* colors) {
-    triangles_.clear();
-    slots_.fill(0);
-    for (std::size_t i = 0; i < fragments.size(); ++i) {
-        const bool is_known = i > 0 && fragments[i].surface == fragments[i - 1].surface;
-        triangle_at_[i] = is_known ? triangle_at_[i - 1] : triangle_number(fragments[i].surface);
-        if (needs_places_) places_[i] = triangle_of(i).at(fragments[i].place);
-        if (needs_changes_) changes_[i] = triangle_of(i).changes_at(fragments[i].place, places_[i]);
+void FragmentShader::find_places() {
+    if (needs_places_) {
+        for (const Run& run : runs_) kernels_.places(triangles_[run.triangle].view(), view(run.begin, run.end));
     }
+    if (needs_changes_) {
+        for (std::size_t i = 0; i < count_; ++i) changes_[i] = triangle_of(i).changes_at(pixel(i), place(i));
+    }
+}
+
+PlaceView FragmentShader::view(std::size_t begin, std::size_t end) {
+    return {&x_[begin],
+            &y_[begin],
+            {&position_[0][begin], &position_[1][begin], &position_[2][begin]},
+            {&normal_[0][begin], &normal_[1][begin], &normal_[2][begin]},
+            end - begin};
+}
+
+void FragmentShader::shade_block(const std::array<float*, 3>& colors) {
+    find_places();
     if (needs_shares_) {
-        for (std::size_t i = 0; i < fragments.size(); ++i) shares_[i] = triangle_of(i).shares_at(fragments[i].place);
+        for (std::size_t i = 0; i < count_; ++i) shares_[i] = triangle_of(i).shares_at(pixel(i));
     }
     if (look_.needs_lit) {
-        for (std::size_t i = 0; i < fragments.size(); ++i) lit_[i] = lit_share(i, fragments[i].place);
+        for (std::size_t i = 0; i < count_; ++i) lit_[i] = lit_share(i);
     }
-    if (!look_.program.outputs().empty()) evaluate(fragments);
+    if (!look_.program.outputs().empty()) evaluate(colors);
+    if (look_.shading == SurfaceShading::expression) return;
     const auto in_light = [&](std::size_t i, const auto& shade) -> glm::vec3 {
         if (!look_.has_shadows || lit_[i] == 1) return shade(false);
         if (lit_[i] == 0) return shade(true);
         return glm::mix(shade(true), shade(false), lit_[i]);
     };
-    for (std::size_t i = 0; i < fragments.size(); ++i) {
+    for (std::size_t i = 0; i < count_; ++i) {
+        glm::vec3 color;
         switch (look_.shading) {
             case SurfaceShading::toon:
-                colors[i] = in_light(i, [&](bool in_shadow) { return toon(i, in_shadow); });
+                color = in_light(i, [&](bool in_shadow) { return toon(i, in_shadow); });
                 break;
             case SurfaceShading::gooch:
-                colors[i] = in_light(i, [&](bool in_shadow) { return gooch(i, in_shadow); });
+                color = in_light(i, [&](bool in_shadow) { return gooch(i, in_shadow); });
                 break;
             case SurfaceShading::hatch:
-                colors[i] = hatch(i, fragments[i].place);
-                break;
-            case SurfaceShading::expression:
-                colors[i] = {values_[i], values_[kBlock + i], values_[2 * kBlock + i]};
+                color = hatch(i, pixel(i));
                 break;
             default:
-                colors[i] = triangle_of(i).color();
+                color = triangle_of(i).color();
                 break;
         }
+        for (std::size_t c = 0; c < 3; ++c) colors[c][i] = color[static_cast<int>(c)];
     }
 }
 
-void FragmentShader::fill_column(const SurfaceInput& input, std::span<const SurfaceFragment> fragments,
-                                 float* to) const {
-    const std::size_t n = fragments.size();
+void FragmentShader::fill_column(const SurfaceInput& input, float* to) {
+    const std::size_t n = count_;
     const auto c = static_cast<int>(input.component);
     const auto each = [&](const auto& compute) {
         for (std::size_t i = 0; i < n; ++i) to[i] = static_cast<float>(compute(i));
     };
-    const auto depth = [&](std::size_t i) { return -places_[i].position.z; };
-    const auto in_row = [c](const glm::dmat4& m, const glm::dvec3& v) {
-        return m[0][c] * v.x + m[1][c] * v.y + m[2][c] * v.z;
+    const auto each_run = [&](const auto& compute) {
+        for (const Run& run : runs_)
+            std::fill(to + run.begin, to + run.end, static_cast<float>(compute(triangles_[run.triangle])));
+    };
+    const double* const positions[3] = {position_[0].data(), position_[1].data(), position_[2].data()};
+    const double* const normals[3] = {normal_[0].data(), normal_[1].data(), normal_[2].data()};
+    const auto cosines = [&](const ViewLight& light) {
+        kernels_.cosines({light.is_at_point, {light.place.x, light.place.y, light.place.z}}, view(0, n), to);
     };
     const glm::dmat4& to_world = surfaces_.camera_to_world();
     switch (input.variable) {
         case S::x:
-            return each([&](std::size_t i) { return fragments[i].place.x; });
+            return each([&](std::size_t i) { return x_[i]; });
         case S::y:
-            return each([&](std::size_t i) { return fragments[i].place.y; });
+            return each([&](std::size_t i) { return y_[i]; });
         case S::depth:
-            return each(depth);
+            return each([&](std::size_t i) { return -position_[2][i]; });
         case S::distance:
-            return each(
-                [&](std::size_t i) { return projection_.orthographic ? depth(i) : glm::length(places_[i].position); });
-        case S::px_size:
-            return each([&](std::size_t i) { return projection_.pixel_size(depth(i)); });
-        case S::P:
-            return each([&](std::size_t i) { return in_row(to_world, places_[i].position) + to_world[3][c]; });
-        case S::PO:
             return each([&](std::size_t i) {
-                const glm::dmat4& to_object = surfaces_.to_object(triangle_of(i).id().instance);
-                return in_row(to_object, places_[i].position) + to_object[3][c];
+                return projection_.orthographic ? -position_[2][i] : glm::length(place(i).position);
             });
-        case S::N:
-            return each([&](std::size_t i) { return in_row(to_world, places_[i].normal); });
+        case S::px_size:
+            return each([&](std::size_t i) { return projection_.pixel_size(-position_[2][i]); });
+        case S::P:
+            return kernels_.rows({to_world[0][c], to_world[1][c], to_world[2][c], to_world[3][c]}, positions, n, to);
+        case S::PO:
+            for (const Run& run : runs_) {
+                const glm::dmat4& m = surfaces_.to_object(triangles_[run.triangle].id().instance);
+                kernels_.rows({m[0][c], m[1][c], m[2][c], m[3][c]},
+                              {positions[0] + run.begin, positions[1] + run.begin, positions[2] + run.begin},
+                              run.end - run.begin, to + run.begin);
+            }
+            return;
+        case S::N:  // to add -0 changes nothing
+            return kernels_.rows({to_world[0][c], to_world[1][c], to_world[2][c], -0.0}, normals, n, to);
         case S::facing:
-            return each([&, eye = light_at_eye(projection_)](std::size_t i) {
-                return std::clamp(eye.cosine(places_[i].normal, places_[i].position), 0.0, 1.0);
-            });
+            return cosines(light_at_eye(projection_));
         case S::light:
-            return each([&, key = surfaces_.lights().front()](std::size_t i) {
-                return std::clamp(key.cosine(places_[i].normal, places_[i].position), 0.0, 1.0);
-            });
+            return cosines(surfaces_.lights().front());
         case S::lit:
             return each([&](std::size_t i) { return lit_[i]; });
         case S::C:
-            return each([&](std::size_t i) { return triangle_of(i).color()[c]; });
+            return each_run([&](const ShadedTriangle& triangle) { return triangle.color()[c]; });
         case S::object:
-            return each([&](std::size_t i) { return triangle_of(i).object_id(); });
+            return each_run([](const ShadedTriangle& triangle) { return triangle.object_id(); });
         case S::material:
-            return each([&](std::size_t i) { return triangle_of(i).material_id(); });
+            return each_run([](const ShadedTriangle& triangle) { return triangle.material_id(); });
         case S::kr:
             return each([&, eye = light_at_eye(projection_)](std::size_t i) {
                 const SurfaceId id = triangle_of(i).id();
                 return radial_curvature(surfaces_.curvature(id.instance), id.triangle, shares_[i],
-                                        glm::dmat3(surfaces_.to_object(id.instance)), places_[i].normal,
-                                        eye.towards(places_[i].position));
+                                        glm::dmat3(surfaces_.to_object(id.instance)), place(i).normal,
+                                        eye.towards(place(i).position));
             });
         case S::u:
         case S::v:
@@ -182,16 +234,17 @@ void FragmentShader::fill_column(const SurfaceInput& input, std::span<const Surf
     }
 }
 
-void FragmentShader::evaluate(std::span<const SurfaceFragment> fragments) {
+void FragmentShader::evaluate(const std::array<float*, 3>& colors) {
     for (std::size_t k = 0; k < look_.inputs.size(); ++k) {
-        fill_column(look_.inputs[k], fragments, &columns_[k * kBlock]);
-        column_list_[k] = &columns_[k * kBlock];
+        fill_column(look_.inputs[k], &columns_[k * kColumn]);
+        column_list_[k] = &columns_[k * kColumn];
     }
     std::array<float*, 9> values{};
     for (std::size_t k = 0; k * kBlock < values_.size(); ++k) values[k] = &values_[k * kBlock];
+    if (look_.shading == SurfaceShading::expression) std::copy(colors.begin(), colors.end(), values.begin());
     std::array<NotNumbers, 3> found{};
     const std::size_t results = look_.program.outputs().size();
-    look_.program.evaluate(column_list_, fragments.size(), values, std::span(found).first(results));
+    look_.program.evaluate(column_list_, count_, values, std::span(found).first(results));
     std::uint64_t count = 0;
     for (const NotNumbers& of_result : found) count += of_result.count;
     if (count != 0) surfaces_.count_not_numbers(count);
@@ -206,27 +259,62 @@ float FragmentShader::file_value(std::size_t i, std::size_t layer, std::size_t c
     return row[component];
 }
 
-float FragmentShader::lit_share(std::size_t i, glm::dvec2 pixel) const {
+double FragmentShader::change_per_px(std::size_t i, const ViewLight& light) const {
+    const SurfacePlace place = this->place(i);
+    const glm::dvec3 way = light.towards(place.position);
+    glm::dvec2 change;
+    for (int axis = 0; axis < 2; ++axis) {
+        change[axis] = glm::dot(changes_[i].normal[axis], way);
+        if (!light.is_at_point) continue;
+        const double distance = std::max(glm::length(light.place - place.position), 1e-300);
+        const glm::dvec3& moved = changes_[i].position[axis];
+        change[axis] -= glm::dot(place.normal, moved - way * glm::dot(way, moved)) / distance;
+    }
+    return glm::length(change);
+}
+
+float FragmentShader::lit_share(std::size_t i) const {
+    const ViewLight& light = surfaces_.lights().front();
+    const double cosine = light.cosine(place(i).normal, place(i).position);
+    // A surface is in its own shadow where it is turned away. Where it begins to be, a pixel has a share of both.
+    const double half_change = 0.5 * change_per_px(i, light);
+    if (cosine <= -half_change) return 0;
+    const double turned_to = cosine < half_change ? std::clamp(0.5 + 0.5 * cosine / half_change, 0.0, 1.0) : 1.0;
+    return static_cast<float>(turned_to) * free_share(i);
+}
+
+float FragmentShader::free_share(std::size_t i) const {
     const ShadowCasters& casters = *surfaces_.casters();
     const ShadedTriangle& triangle = triangle_of(i);
-    const SurfacePlace& place = places_[i];
-    // A surface is in its own shadow where it is turned away.
-    if (surfaces_.lights().front().cosine(place.normal, place.position) <= 0) return 0;
-    const auto count_lit = [&](int side) {
-        int lit = 0;
-        for (int k = 0; k < side * side; ++k) {
-            const glm::dvec2 at((k % side + 0.5) / side - 0.5, (k / side + 0.5) / side - 0.5);
-            lit += casters.is_lit(triangle.shadow_place(pixel + at), triangle.id()) ? 1 : 0;
-        }
-        return lit;
+    const auto is_free = [&](glm::dvec2 at) {
+        return casters.is_lit(triangle.shadow_place(at), triangle.id()) ? 1 : 0;
     };
-    const int of_four = count_lit(2);
-    if (of_four == 0 || of_four == 4) return of_four == 0 ? 0.0f : 1.0f;
-    return static_cast<float>(count_lit(kFineSide)) / (kFineSide * kFineSide);
+    const PixelSamples& own = samples_[i];
+    if (own.bits == 0) {
+        const auto count_free = [&](int side) {
+            int free = 0;
+            for (int k = 0; k < side * side; ++k)
+                free += is_free(pixel(i) + glm::dvec2((k % side + 0.5) / side - 0.5, (k / side + 0.5) / side - 0.5));
+            return free;
+        };
+        const int of_four = count_free(2);
+        if (of_four == 0 || of_four == 4) return of_four == 0 ? 0.0f : 1.0f;
+        return static_cast<float>(count_free(kFineSide)) / (kFineSide * kFineSide);
+    }
+    if (own.side == 0) return static_cast<float>(is_free(pixel(i)));
+    // Beyond its samples the triangle may be below another surface, in whose shadow it is of course.
+    const glm::dvec2 corner = glm::floor(pixel(i));
+    int free = 0, count = 0;
+    for (std::uint64_t bits = own.bits; bits != 0; bits &= bits - 1, ++count) {
+        const int sample = std::countr_zero(bits);
+        free += is_free(corner +
+                        glm::dvec2(sample % own.side + 0.5, sample / own.side + 0.5) / static_cast<double>(own.side));
+    }
+    return static_cast<float>(free) / static_cast<float>(count);
 }
 
 FragmentShader::Light FragmentShader::light_at(std::size_t i, bool in_shadow) const {
-    const SurfacePlace& place = places_[i];
+    const SurfacePlace place = this->place(i);
     Light brightest{-1, 0};
     bool is_first = true;
     for (const ViewLight& light : surfaces_.lights()) {
@@ -240,16 +328,7 @@ FragmentShader::Light FragmentShader::light_at(std::size_t i, bool in_shadow) co
         is_first = false;
         brightest.value = value;
         if (!needs_changes_) continue;
-        const glm::dvec3 way = light.towards(place.position);
-        glm::dvec2 change;
-        for (int axis = 0; axis < 2; ++axis) {
-            change[axis] = glm::dot(changes_[i].normal[axis], way);
-            if (!light.is_at_point) continue;
-            const double distance = std::max(glm::length(light.place - place.position), 1e-300);
-            const glm::dvec3& moved = changes_[i].position[axis];
-            change[axis] -= glm::dot(place.normal, moved - way * glm::dot(way, moved)) / distance;
-        }
-        brightest.change_per_px = glm::length(change);
+        brightest.change_per_px = change_per_px(i, light);
     }
     return brightest;
 }
@@ -274,7 +353,7 @@ glm::vec3 FragmentShader::gooch(std::size_t i, bool in_shadow) const {
 
 double FragmentShader::covered_on_object(std::size_t i, const glm::dvec3& axis, double width) const {
     const glm::dmat4& to_object = surfaces_.to_object(triangle_of(i).id().instance);
-    const SurfacePlace& p = places_[i];
+    const SurfacePlace p = place(i);
     const glm::dvec3 in_view = axis_in_view(i, axis);
     const double place = glm::dot(in_view, p.position) + glm::dot(axis, glm::dvec3(to_object[3]));
     const glm::dvec2 change(glm::dot(in_view, changes_[i].position[0]), glm::dot(in_view, changes_[i].position[1]));
@@ -319,7 +398,7 @@ double FragmentShader::free_of_level(std::size_t i, std::size_t level, double wi
     if (look_.hatch_space == HatchSpace::uv) return 1 - covered_on_texture(i, hatch_directions_[level], width, pixel);
     // Where the planes of the level hardly cut the surface, others take over.
     const glm::dvec3& axis = hatch_axes_[level];
-    const double cosine = std::min(std::abs(glm::dot(unit(axis_in_view(i, axis)), places_[i].normal)), 1.0);
+    const double cosine = std::min(std::abs(glm::dot(unit(axis_in_view(i, axis)), place(i).normal)), 1.0);
     const double sine = std::sqrt(1 - cosine * cosine);
     const double u = std::clamp((sine - kLevelPlanes[0]) / (kLevelPlanes[1] - kLevelPlanes[0]), 0.0, 1.0);
     const double own = width * u * u * (3 - 2 * u);

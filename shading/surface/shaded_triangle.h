@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "kernels/place_kernels.h"
 #include "shading/surface/shaded_surfaces.h"
 
 namespace burin {
@@ -31,6 +32,8 @@ class ShadedTriangle {
 
     SurfaceId id() const { return id_; }
     bool is_smooth() const { return is_smooth_; }
+    /// For loops over many places.
+    PlaceTriangle view() const { return {&weights_[0].x, &corners_[0].x, &normals_[0].x, is_smooth_}; }
     /// At a place on the screen, in pixels.
     SurfacePlace at(glm::dvec2 pixel) const {
         const auto [weights, scale] = weights_at(pixel);

@@ -221,6 +221,38 @@ TEST_F(Attributes, ThatAreWrongAreErrorsForWhoNamesThemAlone) {
 
 /// Polygons of many kinds, each with values of its own at vertices that they share, among them polygons that are
 /// dropped.
+TEST_F(Attributes, ThatAreNoNumbersAreErrorsWithTheirLine) {
+    const auto error = [&](const std::string& name, const std::string& text, const AttributeWish& wish) {
+        try {
+            read(name, text, wish);
+        } catch (const InputError& fault) {
+            return std::string(fault.what());
+        }
+        return std::string();
+    };
+    const std::string obj = "v 0 0 0 1 0 x\nv 1 0 0\nv 0 1 0\nvt 0.5 1e-\nf 1/1 2/1 3/1\n";
+    AttributeWish uv, color, heat;
+    uv.uv = color.color = true;
+    heat.named = {"heat"};
+    EXPECT_NE(error("a.obj", obj, uv).find("a.obj:4: a texture coordinate needs numbers, found '1e-'"),
+              std::string::npos)
+        << error("a.obj", obj, uv);
+    EXPECT_NE(error("a.obj", obj, color).find("a.obj:1: the colour of a vertex needs numbers, found 'x'"),
+              std::string::npos)
+        << error("a.obj", obj, color);
+    EXPECT_EQ(error("a.obj", obj, {}), "");
+    EXPECT_EQ(
+        error("b.obj", "v 0 0 0 1 # weight\nv 1 0 0\nv 0 1 0\nvt 0.5 # u alone\nf 1/1 2/1 3/1\n", AttributeWish::all()),
+        "");
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float heat\nproperty float other\nelement face 1\nproperty list uchar int vertex_indices\n"
+        "end_header\n0 0 0 1 -\n1 0 0 1.2.3 0\n0 1 0 3 0\n3 0 1 2\n";
+    EXPECT_NE(error("a.ply", ply, heat).find("a.ply:13: property 'heat' is no number"), std::string::npos)
+        << error("a.ply", ply, heat);
+    EXPECT_EQ(error("a.ply", ply, {}), "");
+}
+
 TEST_F(Attributes, GoWithTheirPolygons) {
     for (std::uint64_t trial = 0; trial < 40; ++trial) {
         Random random(trial);

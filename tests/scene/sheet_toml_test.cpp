@@ -182,6 +182,13 @@ TEST(SheetErrors, OfTheCommandLine) {
     EXPECT_EQ(error_of(sheet, {{"style.set.a.enabled", "false"}}), "");
     EXPECT_EQ(error_of(sheet, {{"style.crease_angle", "30"}}), "");
     EXPECT_EQ(error_of(sheet, {{"style.w", "5"}}).find("usage: --set style.w=5: "), 0u);
+    const std::string inked = "[parameters]\nred = \"#ff0000\"\nw = 2\n" + text.substr(text.find("[[set]]"));
+    EXPECT_NE(error_of(inked, {{"style.red", "5"}}).find("the parameter is a colour, not a number"), std::string::npos);
+    EXPECT_NE(error_of(inked, {{"style.w", "#00ff00"}}).find("the parameter is a number, not a colour"),
+              std::string::npos);
+    EXPECT_EQ(error_of(inked, {{"style.red", "#00ff00"}}), "");
+    EXPECT_EQ(error_of(inked, {{"style.red", "[1, 0.5, 0]"}}), "");
+    EXPECT_EQ(error_of(inked, {{"style.w", "0.5mm"}}), "");
     EXPECT_NE(error_of(sheet, {{"style.v", "5"}}).find("no parameter 'v'"), std::string::npos);
     EXPECT_NE(error_of(sheet, {{"style.inc.width", "5"}}).find("no style 'inc', did you mean 'ink'?"),
               std::string::npos);
