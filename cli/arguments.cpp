@@ -2,17 +2,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <utility>
 
 #include "base/suggestion.h"
-#include "cli/exr_options.h"
-#include "cli/frame_options.h"
+#include "cli/fill_arguments.h"
+#include "cli/option_texts.h"
 #include "cli/option_values.h"
-#include "cli/page_options.h"
-#include "cli/vector_options.h"
 #include "mesh/model.h"
 #include "mesh/text_scan.h"
 #include "methods/method_table.h"
@@ -23,22 +20,6 @@ namespace burin {
 namespace {
 
 using namespace option_values;
-
-/// Options as they were typed.
-struct Texts {
-    std::string input, output, size, eye, target, up, fov, ortho, camera, method, mask, samples, lines, operators,
-        supersample;
-    std::string width, color, frame, save_lines, find, crease, hidden, style, layers, crop, threads, memory,
-        model_memory, stats, bits;
-    PageTexts page;
-    VectorTexts vector;
-    FrameTexts frames;
-    ExrTexts exr;
-    std::string repeat, progress, pixel, background, methods, compare_frames;
-    std::vector<std::string> sets;
-    int verbose = 0;
-    bool quiet = false, json = false, strict = false, save_surface = false;
-};
 
 /// The picture file that a command writes, and its statistics.
 void add_file_options(CLI::App& app, Texts& t) {
@@ -171,6 +152,15 @@ void add_frame_options(CLI::App& app, Texts& t) {
     app.add_flag("--keep-going", t.frames.keeps_going, "a frame that fails does not end the job");
 }
 
+void add_farm_options(CLI::App& app, Texts& t) {
+    app.add_option("--chunk", t.farm.chunk, "frames of a task (default 8; more if there were over 1000 tasks)");
+    app.add_option("--bands", t.farm.bands,
+                   "each frame in this many bands of rows, each by a task of its own; EXR only");
+    app.add_option("--retries", t.farm.retries, "how often a task that failed is tried again (default 1)");
+    app.add_flag("--dry-run", t.farm.is_dry_run, "print the scripts and the commands, and submit nothing");
+    app.footer("What stands behind -- are options of sbatch. docs/pipeline/farm.md says what is submitted.");
+}
+
 void add_restyle_options(CLI::App& app, Texts& t) {
     app.add_option("INPUT", t.input, "lines that burin render --save-lines has written")->required();
     add_file_options(app, t);
@@ -202,6 +192,20 @@ void add_compare_options(CLI::App& app, Texts& t) {
     app.add_option("--crop", t.crop, "compare only these pixels, X0,Y0,X1,Y1, half open");
     app.add_option("--background", t.background, "colour of the paper of the pictures, #rrggbb, or transparent");
     app.add_option("--progress", t.progress, "alf: print ALF_PROGRESS lines");
+}
+
+/// What was typed, but for some options.
+std::vector<std::string> arguments_without(const CLI::App& app, const std::vector<std::string>& left_out) {
+    std::vector<std::string> arguments;
+    for (const CLI::Option* option : app.get_options()) {
+        const std::string name = option->get_name();
+        if (option->count() == 0 || std::find(left_out.begin(), left_out.end(), name) != left_out.end()) continue;
+        for (const std::string& value : option->results()) {
+            const bool is_flag = option->get_items_expected_max() == 0;
+            arguments.push_back(option->get_positional() ? value : is_flag ? name : name + "=" + value);
+        }
+    }
+    return arguments;
 }
 
 /// What was typed of the options that change a picture: all but those that do not.
@@ -242,6 +246,15 @@ std::optional<std::string> take_input_behind_dashes(const CLI::App& app, std::ve
     return std::exchange(*at, "INPUT");
 }
 
+/// Takes what stands behind "--" of `burin submit`.
+std::vector<std::string> take_options_of_sbatch(std::vector<std::string>& arguments) {
+    const auto dashes = std::find(arguments.begin(), arguments.end(), "--");
+    if (std::find(arguments.begin(), dashes, "submit") == dashes || dashes == arguments.end()) return {};
+    std::vector<std::string> options(dashes + 1, arguments.end());
+    arguments.erase(dashes, arguments.end());
+    return options;
+}
+
 /// Brings the command to the front: options may stand before it.
 void put_command_first(const CLI::App& app, std::vector<std::string>& arguments) {
     const std::string& first = arguments.front();
@@ -250,7 +263,8 @@ void put_command_first(const CLI::App& app, std::vector<std::string>& arguments)
         std::find_if(arguments.begin(), arguments.end(), [&](const std::string& a) { return is_command(app, a); });
     if (command == arguments.end() || (command != arguments.begin() && first[0] != '-')) {
         throw UsageError("'" + printable(first) +
-                         "' is no command; commands are render, restyle, compare, info, explain, methods and styles");
+                         "' is no command; commands are render, restyle, compare, info, explain, methods, styles, "
+                         "submit and assemble");
     }
     std::rotate(arguments.begin(), command, command + 1);
 }
@@ -275,129 +289,6 @@ void put_command_first(const CLI::App& app, std::vector<std::string>& arguments)
                      (closest ? "; did you mean '" + *closest + "'?" : help));
 }
 
-void fill_input_options(const Texts& t, Arguments& a) {
-    a.input = t.input;
-    if (!t.model_memory.empty())
-        a.model_budget = ModelBudget(byte_count("--memory-model", t.model_memory), "--memory-model");
-}
-
-void fill_scene_options(const Texts& t, Arguments& a) {
-    fill_input_options(t, a);
-    if (!t.size.empty()) {
-        a.size_is_longer_side = to_integer(t.size, a.size.emplace()[0]);
-        a.size->back() = a.size->front();
-        if (!a.size_is_longer_side) a.size = integers<2>("--size", t.size, 'x', "WIDTHxHEIGHT in pixels");
-        for (const int side : *a.size) {
-            if (side < 1 || side > 65535) fail("--size", "width and height must be from 1 to 65535");
-        }
-    }
-    if (!t.eye.empty()) a.eye = vector("--eye", t.eye);
-    if (!t.target.empty()) a.target = vector("--target", t.target);
-    if (!t.up.empty()) a.up = vector("--up", t.up);
-    if (!t.fov.empty()) {
-        a.fov_deg = number("--fov", t.fov);
-        if (!(*a.fov_deg > 0 && *a.fov_deg < 180)) fail("--fov", "must lie between 0 and 180 degrees");
-    }
-    if (!t.ortho.empty()) {
-        a.ortho_height = number("--ortho", t.ortho);
-        if (!(*a.ortho_height > 0)) fail("--ortho", "must be positive");
-        if (a.fov_deg) fail("--ortho", "cannot stand beside --fov; remove one");
-    }
-    a.camera = t.camera;
-    if (!t.camera.empty() && (a.eye || a.target || a.up || a.fov_deg || a.ortho_height)) {
-        fail("--camera", "cannot stand beside --eye, --target, --up, --fov or --ortho; remove one");
-    }
-    if (!t.method.empty() && find_method(t.method) == nullptr) {
-        fail("--method", "unknown method '" + printable(t.method) + "'; burin methods lists them");
-    }
-    a.method = t.method;
-    if (!t.mask.empty()) {
-        a.mask_bits = integer("--mask", t.mask, 16, 256);
-        if (*a.mask_bits != 16 && *a.mask_bits != 64 && *a.mask_bits != 256) {
-            fail("--mask", "must be 16, 64 or 256");
-        }
-    }
-    if (!t.samples.empty()) {
-        a.samples_per_pixel = integer("--samples", t.samples, 2, 8);
-        if (*a.samples_per_pixel % 2 != 0 || *a.samples_per_pixel == 6) fail("--samples", "must be 2, 4 or 8");
-    }
-    if (!t.operators.empty()) a.gbuffer_operators = gbuffer_operators(t.operators);
-    if (!t.supersample.empty()) {
-        a.supersample = integer("--supersample", t.supersample, 1, 8);
-        if (*a.supersample != 1 && *a.supersample != 2 && *a.supersample != 4 && *a.supersample != 8) {
-            fail("--supersample", "must be 1, 2, 4 or 8");
-        }
-    }
-    if (!t.lines.empty()) a.lines = line_classes(t.lines);
-    if (!t.width.empty()) {
-        a.line_width_px = number("--line-width", t.width);
-        if (!(*a.line_width_px > 0 && *a.line_width_px <= 1024)) {
-            fail("--line-width", "must be greater than 0 and at most 1024 pixels");
-        }
-    }
-    if (!t.crease.empty()) {
-        const auto parts = split(t.crease, ',');
-        const double from = number("--crease-angle", parts.front()), to = number("--crease-angle", parts.back());
-        if (!(parts.size() <= 2 && from >= 0 && from <= to && to <= 180)) {
-            fail("--crease-angle", "must be from 0 to 180 degrees, or two such angles, the smaller one first");
-        }
-        a.crease_angle_deg = {from, to};
-    }
-    if (!t.hidden.empty()) {
-        const std::pair<std::string_view, HiddenStyle> styles[] = {
-            {"none", HiddenStyle::none}, {"solid", HiddenStyle::solid}, {"dashed", HiddenStyle::dashed}};
-        for (const auto& [name, style] : styles) {
-            if (t.hidden == name) a.hidden = style;
-        }
-        if (!a.hidden) fail("--hidden", "must be none, solid or dashed");
-    }
-    if (!t.color.empty() && !color_from_hex(t.color)) fail("--color", "must be a colour like #c0d0ff");
-    a.line_color = t.color;
-    a.style = t.style;
-    if (!t.frame.empty()) a.frame = integer("--frame", t.frame, -1000000000, 1000000000);
-    for (const std::string& set : t.sets) {
-        const std::size_t equals = set.find('=');
-        if (equals == std::string::npos || equals == 0) {
-            fail("--set", "must be KEY=VALUE, got '" + printable(set) + "'");
-        }
-        a.overrides.push_back({set.substr(0, equals), set.substr(equals + 1)});
-    }
-    if (!t.threads.empty()) a.threads = integer("--threads", t.threads, 0, 1024);
-    a.verbose = t.verbose > 0;
-    a.quiet = t.quiet;
-}
-
-void fill_render_options(const Texts& t, Arguments& a) {
-    a.output = t.output;
-    if (!t.layers.empty()) a.layers = layer_set(t.layers);
-    a.names_layers = !t.layers.empty();
-    if (!t.crop.empty()) a.crop = integers<4>("--crop", t.crop, ',', "X0,Y0,X1,Y1 in pixels");
-    if (!t.bits.empty()) {
-        a.bits = integer("--bits", t.bits, 8, 16);
-        if (a.bits != 8 && a.bits != 16) fail("--bits", "must be 8 or 16");
-    }
-    a.background = t.background;
-    if (!t.background.empty() && t.background != "transparent" && !color_from_hex(t.background)) {
-        fail("--background", "must be a colour like #c0d0ff, or transparent");
-    }
-    if (!t.memory.empty()) a.memory_bytes = byte_count("--memory", t.memory);
-    a.stats = t.stats;
-    if (!t.repeat.empty()) a.repeat = integer("--repeat", t.repeat, 1, 1000000);
-    if (!t.progress.empty() && t.progress != "alf") fail("--progress", "must be alf");
-    a.alf_progress = t.progress == "alf";
-    a.save_lines = t.save_lines;
-    a.saves_surface = t.save_surface;
-    if (a.saves_surface && a.save_lines.empty()) fail("--save-surface", "needs --save-lines");
-    if (a.saves_surface && a.crop) fail("--save-surface", "cannot stand beside --crop; remove one");
-    if (!t.find.empty() && t.find != "sheet" && t.find != "all") fail("--find", "must be sheet or all");
-    a.finds_all = t.find == "all";
-}
-
-void fill_compare_options(const Texts& t, Arguments& a) {
-    if (!t.methods.empty()) a.methods = words(t.methods);
-    if (!t.compare_frames.empty()) a.frames = integer("--frames", t.compare_frames, 2, 1024);
-}
-
 }  // namespace
 
 std::optional<Arguments> parse_arguments(int argc, char** argv) {
@@ -412,6 +303,21 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     add_render_options(*render, t);
     add_frame_options(*render, t);
     add_exr_options(*render, t.exr, true);
+    render->add_flag("--dry-run", t.farm.is_dry_run,
+                     "say which frames and how much memory it would take, and draw nothing");
+    render->add_flag("--json", t.json, "of --dry-run, as JSON");
+    CLI::App* const submit = app.add_subcommand("submit", "give frames to a render farm (Slurm)");
+    add_scene_options(*submit, t);
+    add_paper_options(*submit, t);
+    add_method_option(*submit, t);
+    add_render_options(*submit, t);
+    add_frame_options(*submit, t);
+    add_exr_options(*submit, t.exr, true);
+    add_farm_options(*submit, t);
+    CLI::App* const assemble = app.add_subcommand("assemble", "join bands of a picture to one EXR");
+    assemble->add_option("-o,--output", t.output, "EXR to write")->required();
+    assemble->add_option("BAND", t.farm.band_files, "EXR of rows, as --crop makes them")->required();
+    assemble->add_flag("-q", t.quiet, "say nothing but errors");
     CLI::App* const info = app.add_subcommand("info", "say what is in a scene or a model");
     add_input_options(*info, t);
     info->add_flag("--json", t.json, "as JSON");
@@ -444,6 +350,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         std::fputs(app.help().c_str(), stderr);
         throw UsageError("give a command, for example: burin render model.obj -o lines.png");
     }
+    t.farm.sbatch_options = take_options_of_sbatch(arguments);
     const std::optional<std::string> input = take_input_behind_dashes(app, arguments);
     if (arguments.empty()) throw UsageError("give a command, for example: burin render model.obj -o lines.png");
     put_command_first(app, arguments);
@@ -471,31 +378,21 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     if (input) t.input = *input;
 
     Arguments a;
-    a.json = t.json;
-    a.strict = t.strict;
-    if (*list) {
-        a.command = Command::methods;
-    } else if (*styles) {
-        a.command = Command::styles;
-        a.style = t.style;
-        a.quiet = t.quiet;
-    } else if (*info) {
-        a.command = Command::info;
-        fill_input_options(t, a);
-    } else {
-        a.command = *render    ? Command::render
-                    : *restyle ? Command::restyle
-                    : *compare ? Command::compare
-                               : Command::explain;
-        fill_scene_options(t, a);
-        fill_render_options(t, a);
-        fill_page_options(t.page, a);
-        fill_vector_options(t.vector, a);
-        fill_frame_options(t.frames, a);
-        if (*render) a.picture_options = picture_options(*render);
-        fill_exr_options(t.exr, a);
-        if (*compare) fill_compare_options(t, a);
-        if (*explain) a.pixel = integers<2>("--pixel", t.pixel, ',', "X,Y");
+    const std::pair<const CLI::App*, Command> commands[] = {
+        {render, Command::render},   {submit, Command::submit},   {assemble, Command::assemble},
+        {restyle, Command::restyle}, {compare, Command::compare}, {info, Command::info},
+        {explain, Command::explain}, {list, Command::methods},    {styles, Command::styles}};
+    for (const auto& [app_of, command] : commands) {
+        if (*app_of) a.command = command;
+    }
+    fill_arguments(t, a);
+    if (*render || *submit) a.picture_options = picture_options(*render ? *render : *submit);
+    if (*submit) {
+        a.skips_existing = true;
+        a.submit_arguments = arguments_without(*submit, {"--frames", "--dry-run"});
+        a.render_arguments =
+            arguments_without(*submit, {"--frames", "--output", "--stats", "--progress", "--skip-existing", "--threads",
+                                        "--chunk", "--bands", "--retries", "--dry-run"});
     }
     return a;
 }

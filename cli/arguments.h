@@ -17,7 +17,7 @@
 
 namespace burin {
 
-enum class Command : std::uint8_t { render, info, explain, methods, compare, styles, restyle };
+enum class Command : std::uint8_t { render, info, explain, methods, compare, styles, restyle, assemble, submit };
 
 /// Arguments is what stands on the command line, checked as far as that is possible without the scene.
 /// Everything optional overrides the scene when it is given.
@@ -79,6 +79,13 @@ struct Arguments {
     std::optional<int> turntable_frames;
     bool skips_existing = false, keeps_going = false;
     /// All options of the command line that change the picture, as they were typed.
+    std::vector<std::string> bands;            ///< assemble: files to be joined
+    int frames_of_a_task = 8, band_count = 1;  ///< submit
+    int retries = 1;                           ///< submit: of a task that failed
+    bool is_dry_run = false;                   ///< says what would be done
+    std::vector<std::string> sbatch_options;
+    std::vector<std::string> render_arguments;  ///< submit: what a task's `render` gets of the command line
+    std::vector<std::string> submit_arguments;  ///< submit: the command line but for its frames
     std::string picture_options;
     std::string stats;
     bool json = false;

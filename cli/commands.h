@@ -12,5 +12,7 @@ void run_methods(const Arguments& arguments);
 void run_styles(const Arguments& arguments);
 void run_restyle(const Arguments& arguments);
 void run_compare(const Arguments& arguments);
+void run_assemble(const Arguments& arguments);
+void run_submit(const Arguments& arguments);
 
 }  // namespace burin

@@ -42,7 +42,8 @@ bool changes_no_picture(std::string_view option) {
         "INPUT",        "--output",    "--threads",    "--memory", "--memory-model",
         "--stats",      "--progress",  "-v",           "-q",       "--frames",
         "--frame",      "--turntable", "--crop",       "--repeat", "--skip-existing",
-        "--keep-going", "--strict",    "--save-lines", "--fps"};
+        "--keep-going", "--strict",    "--dry-run",    "--json",   "--chunk",
+        "--bands",      "--retries",   "--save-lines", "--fps"};
     return std::find(kOptions.begin(), kOptions.end(), option) != kOptions.end();
 }
 

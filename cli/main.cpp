@@ -68,6 +68,10 @@ void run(const burin::Arguments& arguments) {
             return run_restyle(arguments);
         case burin::Command::compare:
             return run_compare(arguments);
+        case burin::Command::assemble:
+            return run_assemble(arguments);
+        case burin::Command::submit:
+            return run_submit(arguments);
     }
 }
 

@@ -7,38 +7,24 @@
 #include <string>
 #include <utility>
 
-#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "cli/commands.h"
+#include "cli/frames/dry_run.h"
 #include "cli/frames/frame_plan.h"
 #include "cli/frames/frame_renderer.h"
 #include "cli/frames/frame_writer.h"
 #include "cli/frames/job_report.h"
+#include "cli/frames/render_job.h"
 #include "cli/job.h"
 #include "cli/output_options.h"
-#include "image/image_io.h"
 #include "mesh/text_scan.h"
-#include "methods/method_table.h"
 #include "scene/animation/frame_list.h"
 
 namespace burin {
 namespace {
-
-/// Refuses kinds of files that the method cannot make.
-void check_kind(const Arguments& a, const Method& method, const OutputOptions& output) {
-    const bool has_paths = is_vector(output.format);
-    if (output.format != OutputFormat::exr && !has_paths) check_display_writer(output.path);
-    if (has_paths && method.name != "abuffer") {
-        throw UsageError("--output: method " + std::string(method.name) +
-                         " makes pixels only; draw a vector file with method abuffer");
-    }
-    if (a.memory_bytes > 0 && method.name != "abuffer") {
-        throw UsageError("--memory: method " + std::string(method.name) + " cannot render in pieces; abuffer can");
-    }
-}
 
 /// Says why a frame that was to be there is rendered again.
 void note_on_frame(const Arguments& a, const std::string& frame, const std::string& note) {
@@ -261,40 +247,18 @@ class FrameJob {
 }  // namespace
 
 void run_render(const Arguments& a) {
-    OutputOptions output = output_options(a);
-    check_names_of_frames(a, output.path);
-    const Method& method = a.method.empty() ? methods().front() : *find_method(a.method);
-    std::vector<OutputFile> once;
-    if (writes_stats_file(a)) once.push_back({"--stats", a.stats});
-    std::vector<OutputFile> outputs = once;
-    outputs.push_back({"--output", output.path});
-    if (!a.save_lines.empty()) outputs.push_back({"--save-lines", a.save_lines});
-    refuse_to_overwrite(outputs, {a.input});
-    check_kind(a, method, output);
-
     const bool shows_bar = !a.quiet && isatty(STDERR_FILENO) != 0;
     Progress progress(a.alf_progress ? ProgressStyle::alf : (shows_bar ? ProgressStyle::bar : ProgressStyle::none));
     Stopwatch total, watch;
-    DescribedInput described = describe_input(a);
-    const FramePlan plan = plan_frames(a, described.description, output.path);
-    outputs = outputs_of(plan);
-    outputs.insert(outputs.end(), once.begin(), once.end());
-    refuse_to_overwrite(outputs, {a.input});
-    // The first frame stands for all: what becomes of later ones is seen when their turn comes.
-    output.path = plan.picture.path_of(plan.frames.front());
-    check_output_file(output.path);
-    if (plan.lines) check_output_file(plan.lines->path_of(plan.frames.front()));
-    if (writes_stats_file(a)) check_output_file(a.stats);
-    if (plan.frames.size() > 1) {
-        std::vector<std::string> paths;
-        for (const OutputFile& file : outputs) paths.push_back(file.path);
-        remove_left_behind(paths);
-    }
-    FrameRenderer renderer(a, method, load_input(std::move(described), a, outputs), plan, output);
+    RenderJob ready(a);
+    if (a.is_dry_run) return tell_dry_run(ready, a);
+    const FramePlan& plan = ready.plan();
     const double load_s = watch.lap();
-    if (!plan.is_sequence)
-        return render_still(a, method, renderer, output, load_s, total, progress, shows_bar, plan.frames.front());
-    FrameJob job(a, plan, renderer, output, progress, load_s);
+    if (!plan.is_sequence) {
+        return render_still(a, ready.method(), ready.renderer(), ready.output(), load_s, total, progress, shows_bar,
+                            plan.frames.front());
+    }
+    FrameJob job(a, plan, ready.renderer(), ready.output(), progress, load_s);
     job.run();
     if (a.verbose || shows_bar) {
         std::fprintf(stderr, "%s: %zu frames, %.2f s\n", plan.picture.path.c_str(), plan.frames.size(),

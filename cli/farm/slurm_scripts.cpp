@@ -46,8 +46,7 @@ constexpr std::string_view kCollectScript = R"(#!/bin/sh
 #SBATCH --job-name=@job@-collect
 #SBATCH --output=@logs@/collect_%j.txt
 cd @folder@ || exit 1
-@joins@rm -f @leftovers@
-found=$(@program@ render@arguments@ -f @frames@ -o @output@ -q --skip-existing --dry-run) || exit 1
+@joins@@removal@found=$(@program@ render@arguments@ -f @frames@ -o @output@ -q --skip-existing --dry-run) || exit 1
 missing=$(printf '%s\n' "$found" | sed -n 's/^missing //p')
 if [ -n "$missing" ]; then
     echo "missing: $missing"
@@ -111,6 +110,13 @@ std::string joins(const FarmJob& job) {
     return text;
 }
 
+/// Temporary files are named after the file that they become, the host and the process.
+std::string removal(const FarmJob& job) {
+    std::string text;
+    for (const std::string& begin : job.leftovers) text += "rm -f " + shell_quoted(begin) + ".burin-*\n";
+    return text;
+}
+
 }  // namespace
 
 std::string shell_quoted(const std::string& word) {
@@ -144,7 +150,7 @@ SlurmScripts slurm_scripts(const FarmJob& job) {
                                               {"logs", job.log_folder},
                                               {"folder", shell_quoted(job.folder)},
                                               {"joins", joins(job)},
-                                              {"leftovers", job.leftovers},
+                                              {"removal", removal(job)},
                                               {"program", shell_quoted(job.program)},
                                               {"arguments", shell_words(job.arguments)},
                                               {"frames", shell_quoted(job.frames)},

@@ -31,7 +31,7 @@ struct FarmJob {
     std::vector<std::string> chunks;     ///< those that are rendered, chunk by chunk, as -f has them; at least one
     std::vector<FarmBand> bands;         ///< from the top; empty: frames are rendered whole
     std::vector<FarmFrame> files;        ///< of the frames that are rendered, if there are bands
-    std::string leftovers;               ///< patterns, for the shell, of files that dead tasks may leave
+    std::vector<std::string> leftovers;  ///< how names of files begin that dead tasks may leave
     int retries = 1;                     ///< how often a task that failed is tried again
     int threads = 1;                     ///< of a task
     std::uint64_t memory_bytes = 0;      ///< of a task

@@ -198,6 +198,21 @@ void FrameRenderer::pose(SceneChange&& change) {
     pose_s_ += watch.seconds();
 }
 
+LayerSet FrameRenderer::layers_of_picture(const Frame& frame, const OutputOptions& output, bool& in_bands) const {
+    const LayerSet layers = layers_for(scene(), arguments_);
+    refuse_layers(layers, method_, views_.size());
+    // An EXR is compressed while it is drawn; but not when times are taken.
+    in_bands = output.format == OutputFormat::exr && arguments_.repeat == 0 && views_.empty() &&
+               method_.finishes_in_bands != nullptr && method_.finishes_in_bands(frame);
+    if (output.format == OutputFormat::exr) return layers;
+    return LayerSet{true, false, false, false, false, false, false, false};
+}
+
+LayerSet FrameRenderer::layers_of_first_frame(const OutputOptions& output, bool& in_bands) {
+    pose(change_at(plan_.frames.front()));
+    return layers_of_picture(frame_of(scene(), camera_, arguments_, &posed_.prepared()), output, in_bands);
+}
+
 DrawnFrame FrameRenderer::draw(const OutputOptions& output, Progress* progress) {
     Stopwatch watch;
     DrawnFrame drawn;
@@ -205,16 +220,12 @@ DrawnFrame FrameRenderer::draw(const OutputOptions& output, Progress* progress) 
     drawn.output = output;
     drawn.frame = frame_of(scene(), camera_, arguments_, &posed_.prepared());
     drawn.times.load_s = std::exchange(pose_s_, 0) + watch.lap();
-    LayerSet layers = layers_for(scene(), arguments_);
-    refuse_layers(layers, method_, views_.size());
+    bool in_bands = false;
+    const LayerSet layers = layers_of_picture(drawn.frame, output, in_bands);
     // For line.qi. It changes no picture; a sheet asks for what it needs.
     if (layers.line && !scene().sheet) drawn.frame.needs.tells_invisibility = drawn.frame.needs.behind();
     const Frame& frame = drawn.frame;
     if (is_first_) note_limits(arguments_, frame, method_, has_hidden_lines_, output);
-    if (output.format != OutputFormat::exr) layers = LayerSet{true, false, false, false, false, false, false, false};
-    // An EXR is compressed while it is drawn; but not when times are taken.
-    const bool in_bands = output.format == OutputFormat::exr && arguments_.repeat == 0 && views_.empty() &&
-                          method_.finishes_in_bands != nullptr && method_.finishes_in_bands(frame);
     drawn.film = std::make_unique<Film>(make_film(frame, layers, in_bands, output.path));
     RunOptions run{arguments_.threads, progress, arguments_.memory_bytes};
     if (in_bands) {

@@ -50,12 +50,17 @@ class FrameRenderer {
     /// Draws what it was put into. `output` has the name of its file. Throws InputError, UsageError and Interrupted.
     DrawnFrame draw(const OutputOptions& output, Progress* progress);
 
+    /// The layers of the first frame, which is posed for that. `in_bands`: gets whether an EXR of it is written while
+    /// it is drawn. Throws InputError and UsageError.
+    LayerSet layers_of_first_frame(const OutputOptions& output, bool& in_bands);
+
     /// Whether frames change more than their number.
     bool moves() const { return animation_.moves(); }
     const Scene& scene() const { return posed_.scene(); }
     const Camera& camera() const { return camera_; }
 
   private:
+    LayerSet layers_of_picture(const Frame& frame, const OutputOptions& output, bool& in_bands) const;
     RenderStats draw_picture(const Frame& frame, const RunOptions& run, Film& film, DrawnFrame& drawn);
     void note(const std::string& text);
 
