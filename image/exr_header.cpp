@@ -63,8 +63,8 @@ void take_attribute(const std::string& name, const std::string& type, std::strin
         const auto x0 = in.value<std::int32_t>(), y0 = in.value<std::int32_t>();
         const auto x1 = in.value<std::int32_t>(), y1 = in.value<std::int32_t>();
         constexpr std::int32_t kMost = 1 << 24;
-        part.has_window = !in.has_failed() && x0 >= -kMost && y0 >= -kMost && x0 <= x1 && y0 <= y1 && x1 < kMost &&
-                          y1 < kMost;
+        part.has_window =
+            !in.has_failed() && x0 >= -kMost && y0 >= -kMost && x0 <= x1 && y0 <= y1 && x1 < kMost && y1 < kMost;
         if (part.has_window) part.header.data = {x0, y0, x1 + 1, y1 + 1};
     } else if (name == "compression") {
         part.compression = in.value<std::uint8_t>();

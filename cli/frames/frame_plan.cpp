@@ -58,7 +58,8 @@ FramePlan plan_frames(const Arguments& a, const SceneDescription& scene, const s
     if (!plan.is_sequence) {
         if (has_pattern) {
             const FrameFile& file = plan.picture.pattern ? plan.picture : *plan.lines;
-            throw UsageError(file.option + ": a pattern for frames needs --frames, or a range in [frames] of the scene");
+            throw UsageError(file.option +
+                             ": a pattern for frames needs --frames, or a range in [frames] of the scene");
         }
         plan.is_at_rest = !a.frame && scene.frame_range.empty();
         plan.frames = {still_frame(a, scene.frame_range, scene.turntable)};

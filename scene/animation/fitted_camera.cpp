@@ -34,7 +34,8 @@ Camera FittedCamera::at(const CameraSettings& settings, double frame) const {
         if (!filled.eye) filled.eye = camera_.eye();
         if (!filled.target) filled.target = target_;
         if (filled.orthographic && !filled.height) filled.height = camera_.height;
-        camera = resolve_camera(filled, [](const PointVisitor&) {}, aspect_);
+        camera = resolve_camera(
+            filled, [](const PointVisitor&) {}, aspect_);
     }
     if (!turntable_) return camera;
     return turned(camera, *turntable_, settings.target.value_or(target_), frame);

@@ -7,7 +7,8 @@
 
 namespace burin {
 
-/// The camera of all frames of a job: what its settings leave open is fitted once, so that the picture does not breathe.
+/// The camera of all frames of a job: what its settings leave open is fitted once, so that the picture does not
+/// breathe.
 class FittedCamera {
   public:
     /// `first`: the settings that are fitted; `points`: all that the frames should see. Throws as resolve_camera().

@@ -8,9 +8,7 @@
 namespace burin {
 namespace {
 
-bool is_of_frames(std::string_view key) {
-    return key == "camera" || key == "frames" || key == "turntable";
-}
+bool is_of_frames(std::string_view key) { return key == "camera" || key == "frames" || key == "turntable"; }
 bool is_of_place(std::string_view key) {
     static constexpr std::array<std::string_view, 6> kKeys = {"translate", "rotate",        "scale",
                                                               "matrix",    "interpolation", "key"};
