@@ -242,7 +242,7 @@ Scene load_scene_of(const Arguments& a, const std::vector<OutputFile>& outputs,
                     std::vector<AnimationsOfFile>* animations) {
     refuse_to_overwrite(outputs, {a.input});
     LoadedInput input = load_input(describe_input(a), a, outputs);
-    if (animations != nullptr) *animations = std::move(input.animation.files);
+    if (animations != nullptr) *animations = std::move(input.animation.file_animations);
     const double frame = still_frame(a, input.frame_range, input.turntable);
     const bool is_at_rest = !a.frame && input.frame_range.empty();
     if (input.animation.moves() && !is_at_rest) {

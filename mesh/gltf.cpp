@@ -120,6 +120,10 @@ class GltfReader {
         GltfMotion& motion = scene_.motion.emplace();
         motion.rig.animation = read_gltf_animation(root_, number, nodes_, *buffers_, budget_);
         scene_.notes.insert(scene_.notes.end(), motion.rig.animation.notes.begin(), motion.rig.animation.notes.end());
+        if (motion.rig.animation.channels.empty()) {
+            scene_.motion.reset();
+            return;
+        }
         for (std::size_t i = 0; i < root_.size_of("nodes"); ++i)
             motion.rig.transforms.push_back(read_gltf_transform(root_.at("nodes").element(i)));
         motion.rig.tree = nodes_.tree;

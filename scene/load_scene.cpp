@@ -246,7 +246,7 @@ class SceneLoader {
                     : read_model(object.file, options, {first_frame_.has_value(), lists_animations_, object.animation});
         if (model.player)
             motion = add_motion(std::make_shared<PlayedModel>(object.file, model.player, from_.frame.fps));
-        if (!model.animations.empty()) animation_.files.push_back({object.file, std::move(model.animations)});
+        if (!model.animations.empty()) animation_.file_animations.push_back({object.file, std::move(model.animations)});
         if (files_read_ != nullptr) {
             if (!pattern) files_read_->push_back(object.file);
             files_read_->insert(files_read_->end(), model.other_files.begin(), model.other_files.end());

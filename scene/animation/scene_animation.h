@@ -81,7 +81,7 @@ class SceneAnimation {
     std::vector<Place> objects;  ///< one per object of the scene
     std::vector<MovingCamera> cameras;
     double fps = 24;
-    std::vector<AnimationsOfFile> files;  ///< if they were asked for, those that have animations
+    std::vector<AnimationsOfFile> file_animations;  ///< if they were asked for, those that have animations
 
     /// Whether there is anything that at() would change: of objects and meshes, or at all.
     bool moves_objects() const { return !models.empty() || has_moving_objects(); }

@@ -135,11 +135,11 @@ TEST_F(MovingModels, MotionsOfObjectInstanceAndNodeAreOneAfterTheOther) {
 
 TEST_F(MovingModels, FilesTellTheirAnimations) {
     AnimatedScene loaded = load("[[object]]\nfile = 'slide.gltf'\n", std::nullopt, true);
-    ASSERT_EQ(loaded.animation.files.size(), 1u);
-    ASSERT_EQ(loaded.animation.files[0].animations.size(), 2u);
-    EXPECT_EQ(loaded.animation.files[0].animations[0].name, "Slide");
-    EXPECT_EQ(loaded.animation.files[0].animations[0].channels, 2u);
-    EXPECT_EQ(loaded.animation.files[0].animations[0].seconds, 1);
+    ASSERT_EQ(loaded.animation.file_animations.size(), 1u);
+    ASSERT_EQ(loaded.animation.file_animations[0].animations.size(), 2u);
+    EXPECT_EQ(loaded.animation.file_animations[0].animations[0].name, "Slide");
+    EXPECT_EQ(loaded.animation.file_animations[0].animations[0].channels, 2u);
+    EXPECT_EQ(loaded.animation.file_animations[0].animations[0].seconds, 1);
     EXPECT_FALSE(loaded.animation.moves());
 }
 
