@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "image/exr_header.h"
+#include "image/exr_options.h"
 #include "render/frame.h"
 
 namespace burin {

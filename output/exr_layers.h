@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "image/exr_header.h"
+#include "image/exr_options.h"
 #include "image/image.h"
 #include "output/matte_channels.h"
 

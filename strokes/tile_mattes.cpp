@@ -6,6 +6,7 @@
 namespace burin {
 namespace {
 
+constexpr float kSteps = 1 << 14;
 constexpr double kExactUnit = static_cast<double>(std::int64_t{1} << 40);
 constexpr float kMaskSamples = StrokeMask::kRows * StrokeMask::kColumns;
 
@@ -140,7 +141,9 @@ void TileMattes::finish() {
         std::sort(lines_.begin(), lines_.end(),
                   [](const LineShare& a, const LineShare& b) { return key_of(a) < key_of(b); });
         bring_into_range(lines_, to_float(pixels_[i].opaque));
-        for (const LineShare& line : lines_) {
+        for (LineShare& line : lines_) {
+            // Finer steps would show how crops round.
+            line.share = std::round(line.share * kSteps) / kSteps;
             if (line.share > 0) batch_.lines.push_back(line);
         }
     }

@@ -31,9 +31,15 @@ ProgramResult render(const TemporaryFolder& folder, const std::string& scene, co
 TEST(ExrFiles, BytesDependOnNeitherThreadsNorPieces) {
     const TemporaryFolder folder;
     const std::string layers = "beauty,lines,Z,ids,coverage,lines_hidden,line,motion,crypto";
-    for (const std::vector<std::string>& look : std::vector<std::vector<std::string>>{
-             {}, {"--parts"}, {"--hidden", "solid"}, {"--hidden", "dashed", "--parts"}, {"--style", "technical"},
-             {"--compression", "zips", "--parts"}, {"--compression", "rle"}, {"--compression", "none"}}) {
+    for (const std::vector<std::string>& look :
+         std::vector<std::vector<std::string>>{{},
+                                               {"--parts"},
+                                               {"--hidden", "solid"},
+                                               {"--hidden", "dashed", "--parts"},
+                                               {"--style", "technical"},
+                                               {"--compression", "zips", "--parts"},
+                                               {"--compression", "rle"},
+                                               {"--compression", "none"}}) {
         std::string first;
         for (const std::vector<std::string>& run :
              std::vector<std::vector<std::string>>{{"-j", "1"}, {"-j", "2"}, {"-j", "7"}, {"--memory", "200M"}}) {
@@ -125,9 +131,12 @@ TEST(ExrFiles, CornersLieWhereMatricesLead) {
 
 TEST(ExrFiles, OverscanAddsPixelsAndChangesNone) {
     const TemporaryFolder folder;
-    for (const std::vector<std::string>& look : std::vector<std::vector<std::string>>{
-             {}, {"--hidden", "solid"}, {"--hidden", "dashed"}, {"--set", "lines.filter=gaussian"},
-             {"--style", "technical"}}) {
+    for (const std::vector<std::string>& look :
+         std::vector<std::vector<std::string>>{{},
+                                               {"--hidden", "solid"},
+                                               {"--hidden", "dashed"},
+                                               {"--set", "lines.filter=gaussian"},
+                                               {"--style", "technical"}}) {
         std::vector<std::string> more = {"--layers", "beauty,lines,Z,ids,crypto"};
         more.insert(more.end(), look.begin(), look.end());
         // The model reaches beyond the picture.
@@ -155,11 +164,11 @@ TEST(ExrFiles, OverscanAddsPixelsAndChangesNone) {
 
 TEST(ExrFiles, StatsCountNamesWithoutRoom) {
     const TemporaryFolder folder;
-    ASSERT_EQ(render(folder, scene_file("still_life.toml"), "a.exr",
-                     {"--layers", "CryptoLine", "--set", "crypto.ranks=2", "--lines", "all", "-w", "6", "--stats",
-                      "a.json"})
-                  .err,
-              "");
+    ASSERT_EQ(
+        render(folder, scene_file("still_life.toml"), "a.exr",
+               {"--layers", "CryptoLine", "--set", "crypto.ranks=2", "--lines", "all", "-w", "6", "--stats", "a.json"})
+            .err,
+        "");
     const std::string stats = read_file(folder.file("a.json"));
     const std::size_t at = stats.find("\"crypto_dropped\": ");
     ASSERT_NE(at, std::string::npos);
@@ -214,8 +223,7 @@ TEST(ExrOptions, InfoWarnsOfNamesThatAreHardToFind) {
     const std::string out = run_burin(folder.path(), {"info", "names.toml"}).out;
     EXPECT_NE(out.find("object left, right: Blender cannot find"), std::string::npos) << out;
     EXPECT_NE(out.find("object <1234>: Blender cannot find"), std::string::npos) << out;
-    EXPECT_EQ(run_burin(folder.path(), {"info", scene_file("still_life.toml")}).out.find("Blender"),
-              std::string::npos);
+    EXPECT_EQ(run_burin(folder.path(), {"info", scene_file("still_life.toml")}).out.find("Blender"), std::string::npos);
 }
 
 }  // namespace

@@ -284,8 +284,8 @@ TEST(Cryptomatte, BytesDependOnNeitherThreadsNorCrop) {
                         whole.find(channel.name)->bytes.data() +
                         static_cast<std::size_t>((y + crop.y0) * whole.width() + x + crop.x0) * size;
                     ASSERT_TRUE(std::equal(a, a + size, b))
-                        << channel.name << " " << x << "," << y << ": " << part.value(channel, x, y) << ", not "
-                        << whole.value(*whole.find(channel.name), x + crop.x0, y + crop.y0);
+                        << has_sheet << " " << channel.name << " " << x << "," << y << ": " << part.value(channel, x, y)
+                        << ", not " << whole.value(*whole.find(channel.name), x + crop.x0, y + crop.y0);
                 }
             }
         }
