@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "cli/exr_options.h"
 #include "cli/output_files.h"
+#include "scene/animation/frame_pattern.h"
 
 namespace burin {
 
@@ -29,14 +30,12 @@ OutputOptions output_options(const Arguments& a) {
             "; burin writes " + suffixes_of_formats());
     }
     refuse_exr_options(a, options.format);
-    if (has_frame_pattern(std::filesystem::path(a.output).filename().string())) {
-        throw UsageError("--output: a pattern for frames needs --frames, which is not in this version");
-    }
+    if (a.command != Command::render && FramePattern::find(options.path, FramePattern::SingleHash::letter))
+        throw UsageError("--output: a pattern for frames is for burin render --frames");
     if (writes_stats_file(a) && is_one_file(a.stats, options.path)) {
         throw UsageError("--stats: would overwrite " + options.path + "; give another name");
     }
     options.exr = a.exr;
-    options.exr.image_counter = a.frame;
     options.exr.has_camera = a.views.empty();
     options.bits = a.bits;
     options.threads = resolve_thread_count(a.threads);
