@@ -82,11 +82,11 @@ TEST(ExrFiles, HeadersTellOfFrameAndCamera) {
     for (const std::string& name : still.order) {
         for (const char* const never : {"capDate", "owner", "host", "comments", "DateTime"}) EXPECT_NE(name, never);
     }
-    ASSERT_EQ(render(folder, scene_file("cube.toml"), "a.exr",
-                     {"--frame", "12", "--set", "frames.fps=23.976", "--ortho", "4"})
+    ASSERT_EQ(render(folder, scene_file("cube.toml"), "b.##.exr",
+                     {"--frames", "12", "--set", "frames.fps=23.976", "--ortho", "4"})
                   .err,
               "");
-    const ExrHeader frame(read_file(folder.file("a.exr")));
+    const ExrHeader frame(read_file(folder.file("b.12.exr")));
     EXPECT_EQ(frame.numbers<std::int32_t>("imageCounter"), (std::vector<std::int32_t>{12}));
     EXPECT_EQ(frame.numbers<std::int32_t>("framesPerSecond"), (std::vector<std::int32_t>{24000, 1001}));
     EXPECT_NEAR(frame.numbers<float>("screenWindowWidth").front(), 4.0 * 96 / 64, 1e-5);
@@ -153,12 +153,38 @@ TEST(ExrFiles, OverscanAddsPixelsAndChangesNone) {
             for (int x = 0; x < 96; ++x) {
                 for (const char* const name : {"A", "lines.A", "Z", "id.object", "CryptoObject00.G"}) {
                     const double before = a.value(*a.find(name), x, y), after = b.value(*b.find(name), x + 13, y + 13);
-                    if (!is_dashed) ASSERT_EQ(before, after) << name << " " << x << "," << y;
+                    if (is_dashed) continue;
+                    ASSERT_EQ(before, after) << name << " " << x << "," << y;
                 }
             }
         }
         for (int x = 0; x < b.width(); ++x) beside += b.value(*b.find("A"), x, 3) + b.value(*b.find("A"), x, 73);
         EXPECT_GT(beside, 20);
+    }
+}
+
+TEST(ExrFiles, MotionLeadsToTheNextFrame) {
+    const TemporaryFolder folder;
+    write_file(
+        folder.file("move.toml"),
+        "[frames]\nrange = \"1-5\"\n[[object]]\nname = \"box\"\nshape = \"box\"\ninterpolation = \"linear\"\n"
+        "[[object.key]]\nframe = 1\ntranslate = [0, 0, 0]\n[[object.key]]\nframe = 5\ntranslate = [0.4, 0.2, 0]\n"
+        "[[camera]]\nprojection = \"orthographic\"\nheight = 4\neye = [0, 0, 5]\ntarget = [0, 0, 0]\n");
+    ASSERT_EQ(render(folder, "move.toml", "m.#.exr", {"--frames", "1-5", "--layers", "motion,ids,crypto"}).err, "");
+    for (int number = 1; number <= 5; ++number) {
+        const Image image = read_exr(folder.file("m.000" + std::to_string(number) + ".exr"));
+        int seen = 0;
+        for (int y = 0; y < 64; ++y) {
+            for (int x = 0; x < 96; ++x) {
+                const bool is_box = image.value(*image.find("id.object"), x, y) == 1;
+                // 16 pixels are a unit; the last key holds.
+                const double moved = is_box && number < 5 ? 16 : 0;
+                ASSERT_NEAR(image.value(*image.find("forward.u"), x, y), 0.1 * moved, 1e-4) << number;
+                ASSERT_NEAR(image.value(*image.find("forward.v"), x, y), 0.05 * moved, 1e-4) << "v points up";
+                seen += is_box;
+            }
+        }
+        EXPECT_GT(seen, 200);
     }
 }
 
