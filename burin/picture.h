@@ -35,7 +35,9 @@ struct burin_picture {
     burin_picture(const burin::Frame& frame, burin::Film f, int t, std::vector<std::string> n)
         : film(std::move(f)), settings(frame.scene->picture), threads(t), notes(std::move(n)) {
         const burin::FilmChannels channels(frame, film);
-        exr = channels.exr_options(frame, {}, t);
+        burin::OutputOptions options;
+        options.threads = t;
+        exr = channels.exr_options(frame, options);
         const burin::PixelRect rows = film.crop();
         if (channels.adds_any()) all_channels = channels.rows(burin::strip_of(film.image()), rows.y0, rows.y1);
     }

@@ -36,7 +36,6 @@ OutputOptions output_options(const Arguments& a) {
         throw UsageError("--stats: would overwrite " + options.path + "; give another name");
     }
     options.exr = a.exr;
-    options.exr.image_counter = a.frame;
     options.exr.has_camera = a.views.empty();
     options.bits = a.bits;
     options.threads = resolve_thread_count(a.threads);

@@ -197,7 +197,6 @@ class FrameJob {
         OutputOptions output = output_;
         output.path = plan_.picture.path_of(due.frame);
         output.fingerprint = due.fingerprint;
-        output.exr.image_counter = static_cast<int>(std::floor(due.frame));
         output.frame = renderer_.scene().frame;
         return output;
     }

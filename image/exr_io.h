@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/atomic_file.h"
-#include "image/exr_header.h"
+#include "image/exr_options.h"
 #include "image/image.h"
 #include "image/image_strip.h"
 

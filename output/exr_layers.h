@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "image/exr_header.h"
+#include "image/exr_options.h"
 #include "image/image.h"
 #include "output/matte_channels.h"
 
@@ -22,8 +22,7 @@ struct ExrChoice {
     bool has_parts = false;  ///< a part per layer; else one
     ChannelNames names = ChannelNames::plain;
     ExrCompression compression = ExrCompression::zip;
-    std::optional<int> image_counter = std::nullopt;  ///< number of the frame, if there are several
-    bool has_camera = true;                           ///< else the picture is of several views
+    bool has_camera = true;  ///< else the picture is of several views
 };
 
 /// A channel's name for those readers: `coverage.crease` becomes `coverage_crease.V`.

@@ -1,6 +1,7 @@
 #include "output/film_files.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "base/parallel.h"
@@ -12,14 +13,6 @@ namespace {
 std::vector<ChannelFormat> named(std::vector<ChannelFormat> channels, ChannelNames names) {
     for (ChannelFormat& channel : channels) channel.name = channel_name(channel.name, names);
     return channels;
-}
-
-/// What the header of a film's file says.
-ExrOptions header_of(const FilmChannels& channels, const Frame& frame, const OutputOptions& options) {
-    ExrOptions exr = channels.exr_options(frame, options.exr, options.threads);
-    if (!options.fingerprint.empty())
-        exr.attributes.push_back({std::string(kFingerprintName), options.fingerprint});
-    return exr;
 }
 
 void write_rows(ExrWriter& exr, const ImageStrip& strip) {
@@ -39,9 +32,13 @@ std::vector<ChannelFormat> FilmChannels::formats() const {
     return formats;
 }
 
-ExrOptions FilmChannels::exr_options(const Frame& frame, const ExrChoice& choice, int threads) const {
-    ExrOptions exr = exr_options_of(frame, choice.image_counter, choice.has_camera);
-    exr.threads = threads;
+ExrOptions FilmChannels::exr_options(const Frame& frame, const OutputOptions& options) const {
+    std::optional<int> image_counter;
+    if (options.frame.is_of_sequence) image_counter = static_cast<int>(std::floor(options.frame.number));
+    const ExrChoice& choice = options.exr;
+    ExrOptions exr = exr_options_of(frame, image_counter, choice.has_camera);
+    if (!options.fingerprint.empty()) exr.attributes.push_back({kFingerprintName, options.fingerprint});
+    exr.threads = options.threads;
     exr.compression = choice.compression;
     const std::vector<CryptoAttributes> crypto = mattes_ ? mattes_->attributes() : std::vector<CryptoAttributes>{};
     if (choice.has_parts) {
@@ -89,15 +86,19 @@ DisplayImage displayed(const PictureSettings& picture, const Image& image) {
 }
 
 WrittenFilm write_output(const Frame& frame, const Film& film, const OutputOptions& options) {
+    return write_output(frame, film, FilmChannels(frame, film), options);
+}
+
+WrittenFilm write_output(const Frame& frame, const Film& film, const FilmChannels& channels,
+                         const OutputOptions& options) {
     if (options.format != OutputFormat::exr) {
         DisplayImage image = displayed(frame.scene->picture, film.image());
         image.fingerprint = options.fingerprint;
         write_display_image(options.path, image, options.bits);
         return {};
     }
-    const FilmChannels channels(frame, film);
     ExrWriter exr(options.path, film.display(), film.crop(), named(channels.formats(), options.exr.names),
-                  header_of(channels, frame, options));
+                  channels.exr_options(frame, options));
     const ImageStrip strip = strip_of(film.image());
     const int step = channels.adds_any() ? Film::kBandRows : ExrWriter::kChunkRows;
     const auto count = static_cast<std::size_t>((strip.data.height() + step - 1) / step);
@@ -127,7 +128,7 @@ BandWriter::BandWriter(const Frame& frame, Film& film, const OutputOptions& opti
       channels_(frame, film),
       exr_(std::make_unique<ExrWriter>(options.path, film.display(), film.crop(),
                                        named(channels_.formats(), options.exr.names),
-                                       header_of(channels_, frame, options))) {}
+                                       channels_.exr_options(frame, options))) {}
 
 void BandWriter::write(std::size_t band) {
     try {

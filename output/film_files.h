@@ -22,9 +22,9 @@ struct OutputOptions {
     OutputFormat format = OutputFormat::exr;
     int bits = 8;  ///< PNG and TIFF: 8 or 16
     int threads = 1;
+    ExrChoice exr = {};
     std::string fingerprint = {};  ///< of what the picture is made from; empty: the file has none
     FrameSettings frame = {};      ///< which frame it is
-    ExrChoice exr = {};
 };
 
 /// All channels that a file has of a film: those that it keeps, and those that are made of its mattes.
@@ -35,7 +35,7 @@ class FilmChannels {
 
     std::vector<ChannelFormat> formats() const;
     /// The options of an EXR with these channels, named as was chosen.
-    ExrOptions exr_options(const Frame& frame, const ExrChoice& choice, int threads) const;
+    ExrOptions exr_options(const Frame& frame, const OutputOptions& options) const;
     /// Whether rows of the film lack channels.
     bool adds_any() const { return mattes_.has_value(); }
     /// The rows [y0, y1) with all channels; of `strip`, which has them. Rows are those of whole bands.
@@ -55,6 +55,9 @@ struct WrittenFilm {
 
 /// Writes the film to its file (docs/conventions.md lists the layers). Throws InputError.
 WrittenFilm write_output(const Frame& frame, const Film& film, const OutputOptions& options);
+/// The same with channels that are known: then nothing of the scene's objects is read any more.
+WrittenFilm write_output(const Frame& frame, const Film& film, const FilmChannels& channels,
+                         const OutputOptions& options);
 /// Writes a whole film's image into a file that is open; `options.path` is its name. `picture`: its paper; `exr`: what
 /// an EXR says, beside its channels.
 void write_output(ByteSink& file, const PictureSettings& picture, const Image& image, const ExrOptions& exr,

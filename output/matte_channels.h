@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "image/exr_header.h"
+#include "image/exr_options.h"
 #include "image/image.h"
 #include "render/film.h"
 #include "render/frame.h"

@@ -9,10 +9,6 @@ namespace {
 auto key_of(const SurfaceShare& s) {
     return std::tuple(s.place.pixel, s.is_transparent, s.owner.object, s.owner.material, s.share);
 }
-auto key_of(const LineShare& s) {
-    return std::tuple(s.place.pixel, s.is_below, s.is_hidden, s.drawn_as, s.set, s.owner.object, s.owner.material,
-                      s.share);
-}
 /// The one that covers most comes first; of equal ones, by class.
 auto key_of(const LineSpot& s) {
     return std::tuple(s.place.pixel, -s.coverage, s.drawn_as, s.invisibility, s.distance, s.owner.object,
@@ -21,8 +17,7 @@ auto key_of(const LineSpot& s) {
 
 template <typename Record, std::size_t kCount>
 void sort_by_pixel(std::vector<Record>& records, std::array<std::uint32_t, kCount>& first) {
-    std::sort(records.begin(), records.end(),
-              [](const Record& a, const Record& b) { return key_of(a) < key_of(b); });
+    std::sort(records.begin(), records.end(), [](const Record& a, const Record& b) { return key_of(a) < key_of(b); });
     for (const Record& r : records) ++first[r.place.pixel + 1u];
     for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
 }
@@ -34,8 +29,8 @@ Mattes::Mattes(PixelRect crop, CryptoLayerSet layers, bool wants_spots)
       layers_(layers),
       wants_spots_(wants_spots),
       columns_(static_cast<std::uint32_t>((std::max(crop.width(), 0) + kBlockPx - 1) / kBlockPx)),
-      blocks_(std::size_t{columns_} * static_cast<std::size_t>((std::max(crop.height(), 0) + kBlockPx - 1) / kBlockPx)) {
-}
+      blocks_(std::size_t{columns_} *
+              static_cast<std::size_t>((std::max(crop.height(), 0) + kBlockPx - 1) / kBlockPx)) {}
 
 void Mattes::put_surface(int x0, int x1, int y, MatteOwner owner, float share, bool is_transparent,
                          MatteBatch& batch) const {

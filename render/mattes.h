@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "image/image.h"
@@ -49,6 +50,12 @@ struct LineShare {
     float share = 0;
 };
 
+/// In which order shares of lines stand, which depends on nothing but themselves.
+inline auto key_of(const LineShare& s) {
+    return std::tuple(s.place.pixel, s.is_below, s.is_hidden, s.drawn_as, s.set, s.owner.object, s.owner.material,
+                      s.share);
+}
+
 /// A line in a pixel, as the layer `line` shows one.
 struct LineSpot {
     MattePlace place;
@@ -89,7 +96,8 @@ class Mattes {
                 static_cast<std::uint16_t>(row % kBlockPx * kBlockPx + column % kBlockPx)};
     }
     /// Pixels [x0, x1) of a row have the same share of a surface.
-    void put_surface(int x0, int x1, int y, MatteOwner owner, float share, bool is_transparent, MatteBatch& batch) const;
+    void put_surface(int x0, int x1, int y, MatteOwner owner, float share, bool is_transparent,
+                     MatteBatch& batch) const;
     /// Takes what a batch has, and clears it.
     void add(MatteBatch& batch);
 

@@ -30,4 +30,21 @@ glm::vec2 motion_at(const SurfaceSet& now, const SurfaceSet& next, SurfaceId sur
     return {static_cast<float>(way.x), static_cast<float>(-way.y)};
 }
 
+SurfaceSet surfaces_later(const Frame& frame, std::span<const glm::dmat4> to_world, std::span<const Mesh* const> meshes,
+                          const Camera& camera) {
+    SurfaceSet later = frame.surfaces;
+    later.projection = camera.projection(frame.width, frame.height, frame.surfaces.projection.near_distance);
+    later.view_to_world = glm::dmat3(camera.to_world);
+    const glm::dmat4 world_to_view = camera.to_view();
+    for (std::size_t i = 0; i < later.instances.size(); ++i) {
+        SurfaceInstance& instance = later.instances[i];
+        const Mesh* const mesh = i < meshes.size() ? meshes[i] : nullptr;
+        if (mesh != nullptr && mesh->triangles == instance.mesh->triangles) instance.mesh = mesh;
+        const glm::dmat4& own = to_world.empty() ? frame.scene->objects[i].to_world : to_world[i];
+        instance.to_view = world_to_view * own;
+        instance.to_view[3] = instance.to_view * glm::dvec4(instance.mesh->origin, 1.0);
+    }
+    return later;
+}
+
 }  // namespace burin

@@ -1,6 +1,18 @@
 #include "strokes/owner_masks.h"
 
+#include <bit>
+
 namespace burin {
+
+namespace {
+
+/// Lines that meet are equally near: rounding, which may be another in a crop, does not decide which comes first.
+float roughly(float nearness) {
+    constexpr std::uint32_t kLowBits = (1u << 12) - 1;
+    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearness) & ~kLowBits);
+}
+
+}  // namespace
 
 void OwnerMasks::reset(PixelRect rect) {
     rect_ = rect;
@@ -36,8 +48,8 @@ void OwnerMasks::find(int column, int row, std::uint32_t group) {
     }
     const auto key = [](const Found& f) {
         const Line& line = f.record->line;
-        return std::tuple(-line.nearness, line.drawn_as, line.owner.object, line.owner.material, line.invisibility,
-                          line.width_px);
+        return std::tuple(-roughly(line.nearness), line.drawn_as, line.owner.object, line.owner.material,
+                          line.invisibility, line.width_px);
     };
     std::sort(found_.begin(), found_.end(), [&](const Found& a, const Found& b) { return key(a) < key(b); });
 }

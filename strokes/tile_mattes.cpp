@@ -1,10 +1,13 @@
 #include "strokes/tile_mattes.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace burin {
 namespace {
 
+constexpr float kSteps = 1 << 14;
+constexpr double kExactUnit = static_cast<double>(std::int64_t{1} << 40);
 constexpr float kMaskSamples = StrokeMask::kRows * StrokeMask::kColumns;
 
 /// Brings shares above 0 so that their sum stays, where it is from 0 to 1.
@@ -38,7 +41,7 @@ void TileMattes::begin(PixelRect tile) {
     tile_ = tile;
     owners_.reset({tile.x0 - reach_, tile.y0 - reach_, tile.x1 + reach_, tile.y1 + reach_});
     for (const std::uint32_t i : used_) {
-        pixels_[i].lines.clear();
+        pixels_[i].kinds.clear();
         pixels_[i].opaque = 0;
     }
     used_.clear();
@@ -61,17 +64,18 @@ void TileMattes::add_to(int x, int y, const OwnerMasks::Line& line, const Kind& 
     if (x < tile_.x0 || y < tile_.y0 || x >= tile_.x1 || y >= tile_.y1) return;
     const auto i = static_cast<std::uint32_t>((y - tile_.y0) * tile_.width() + (x - tile_.x0));
     PixelShares& pixel = pixels_[i];
-    if (pixel.lines.empty()) used_.push_back(i);
-    if (kind.is_opaque) pixel.opaque += share;
-    for (LineShare& known : pixel.lines) {
+    if (pixel.kinds.empty()) used_.push_back(i);
+    const auto exact = static_cast<ExactShare>(std::llround(static_cast<double>(share) * kExactUnit));
+    if (kind.is_opaque) pixel.opaque += exact;
+    for (auto& [known, sum] : pixel.kinds) {
         if (known.drawn_as != line.drawn_as || known.is_hidden != kind.is_hidden || known.is_below != kind.is_below ||
             known.set != kind.set || known.owner != line.owner)
             continue;
-        known.share += share;
+        sum += exact;
         return;
     }
-    pixel.lines.push_back(
-        {mattes_.place_of(x, y), line.drawn_as, kind.is_hidden, kind.is_below, kind.set, line.owner, share});
+    pixel.kinds.push_back(
+        {{mattes_.place_of(x, y), line.drawn_as, kind.is_hidden, kind.is_below, kind.set, line.owner, 0}, exact});
 }
 
 void TileMattes::add_share(int column, int row, const StrokeMask& samples, const OwnerMasks::Line& line,
@@ -94,8 +98,8 @@ void TileMattes::add_spot(int column, int row, const OwnerMasks::Line& line, flo
     const int x = owners_.rect().x0 + column, y = owners_.rect().y0 + row;
     if (!(coverage > 0) || x < tile_.x0 || y < tile_.y0 || x >= tile_.x1 || y >= tile_.y1) return;
     batch_.spots.push_back({mattes_.place_of(x, y), line.drawn_as, line.invisibility, line.owner,
-                            static_cast<float>(projection_.distance(static_cast<double>(line.nearness))),
-                            line.width_px, coverage});
+                            static_cast<float>(projection_.distance(static_cast<double>(line.nearness))), line.width_px,
+                            coverage});
 }
 
 void TileMattes::add(int column, int row, const StrokeMask& seen, const Kind& kind) {
@@ -108,19 +112,19 @@ void TileMattes::add(int column, int row, const StrokeMask& seen, const Kind& ki
 
 /// Cuts off what a filter's negative lobes take away, and makes what lies below visible strokes a share of what these
 /// leave, as it is drawn.
-void TileMattes::bring_into_range(PixelShares& pixel) const {
+void TileMattes::bring_into_range(std::vector<LineShare>& lines, float opaque) const {
     const auto is_above = [](const LineShare& line) { return !line.is_below; };
     const auto is_below = [](const LineShare& line) { return line.is_below; };
     if (filter_ != nullptr) {
-        clamp_sum(pixel.lines, is_above);
-        clamp_sum(pixel.lines, is_below);
+        clamp_sum(lines, is_above);
+        clamp_sum(lines, is_below);
     }
     float below = 0;
-    for (const LineShare& line : pixel.lines) below += line.is_below ? line.share : 0;
+    for (const LineShare& line : lines) below += line.is_below ? line.share : 0;
     if (below == 0) return;
-    const float left = 1.0f - std::clamp(pixel.opaque, 0.0f, 1.0f);
+    const float left = 1.0f - std::clamp(opaque, 0.0f, 1.0f);
     const float scale = left > 0 ? std::min(1.0f / left, 1.0f / std::max(below, 1e-6f)) : 0.0f;
-    for (LineShare& line : pixel.lines) {
+    for (LineShare& line : lines) {
         if (line.is_below) line.share *= scale;
     }
 }
@@ -128,8 +132,18 @@ void TileMattes::bring_into_range(PixelShares& pixel) const {
 void TileMattes::finish() {
     std::sort(used_.begin(), used_.end());
     for (const std::uint32_t i : used_) {
-        bring_into_range(pixels_[i]);
-        for (const LineShare& line : pixels_[i].lines) {
+        const auto to_float = [](ExactShare sum) { return static_cast<float>(static_cast<double>(sum) / kExactUnit); };
+        lines_.clear();
+        for (const KindShare& kind : pixels_[i].kinds) {
+            lines_.push_back(kind.kind);
+            lines_.back().share = to_float(kind.sum);
+        }
+        std::sort(lines_.begin(), lines_.end(),
+                  [](const LineShare& a, const LineShare& b) { return key_of(a) < key_of(b); });
+        bring_into_range(lines_, to_float(pixels_[i].opaque));
+        for (LineShare& line : lines_) {
+            // Finer steps would show how crops round.
+            line.share = std::round(line.share * kSteps) / kSteps;
             if (line.share > 0) batch_.lines.push_back(line);
         }
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -51,13 +52,19 @@ class TileMattes {
     void finish();
 
   private:
+    /// Sums of these do not depend on their order.
+    using ExactShare = std::int64_t;
+    struct KindShare {
+        LineShare kind;
+        ExactShare sum = 0;
+    };
     struct PixelShares {
-        std::vector<LineShare> lines;
-        float opaque = 0;
+        std::vector<KindShare> kinds;
+        ExactShare opaque = 0;
     };
     void add_piece(const LinePiece& piece, double radius_px, double width_px, std::uint32_t group);
     void add_to(int x, int y, const OwnerMasks::Line& line, const Kind& kind, float share);
-    void bring_into_range(PixelShares& pixel) const;
+    void bring_into_range(std::vector<LineShare>& lines, float opaque) const;
     int count(const StrokeMask& mask) const {
         const StrokeMask nothing;
         return kernels_.stroke.count_bits(mask.rows.data(), nothing.rows.data());
@@ -73,6 +80,7 @@ class TileMattes {
     PixelRect tile_;
     std::vector<PixelShares> pixels_;
     std::vector<std::uint32_t> used_;
+    std::vector<LineShare> lines_;  // of a pixel
     MatteBatch batch_;
 };
 

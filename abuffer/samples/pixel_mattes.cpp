@@ -66,8 +66,7 @@ void PixelFiller::put_motion(const SampleTile& samples, PixelRect rect, int y, F
     for (int x = rect.x0; x < rect.x1 && frame_.next != nullptr; ++x) {
         const std::uint32_t id = samples.ids[samples.index(x * s + s / 2, y * s + s / 2)];
         if (id == SampleTile::kBackground) continue;
-        const glm::vec2 way =
-            motion_at(frame_.surfaces, *frame_.next, screen_.surface_of(id >> 1), {x + 0.5, y + 0.5});
+        const glm::vec2 way = motion_at(frame_.surfaces, *frame_.next, screen_.surface_of(id >> 1), {x + 0.5, y + 0.5});
         right[x - rect.x0] = way.x;
         up[x - rect.x0] = way.y;
     }

@@ -19,6 +19,7 @@
 #include "output/whole_files.h"
 #include "render/layer_names.h"
 #include "render/mattes.h"
+#include "render/motion.h"
 #include "render/picture_notes.h"
 #include "scene/animation/frame_list.h"
 #include "scene/plain_sheet.h"
@@ -111,7 +112,7 @@ void DrawnFrame::write(const Arguments& a) {
     } else if (is_vector(output.format)) {
         write_vector(drawing, a, output);
     } else {
-        written = write_output(frame, *film, output);
+        written = write_output(frame, *film, *channels, output);
     }
     if (film && film->layers().crypto.has_any()) times.crypto_dropped = written.crypto_dropped;
     times.write_s = times.render.write_s + watch.lap();
@@ -225,6 +226,7 @@ DrawnFrame FrameRenderer::draw(const OutputOptions& output, Progress* progress) 
     const LayerSet layers = layers_of_picture(drawn.frame, output, in_bands);
     // For line.qi. It changes no picture; a sheet asks for what it needs.
     if (layers.line && !scene().sheet) drawn.frame.needs.tells_invisibility = drawn.frame.needs.behind();
+    if (layers.motion) find_next(drawn.frame);
     const Frame& frame = drawn.frame;
     if (is_first_) note_limits(arguments_, frame, method_, has_hidden_lines_, output);
     drawn.film = std::make_unique<Film>(make_film(frame, layers, in_bands, output.path));
@@ -233,6 +235,7 @@ DrawnFrame FrameRenderer::draw(const OutputOptions& output, Progress* progress) 
         drawn.bands = std::make_unique<BandWriter>(frame, *drawn.film, output);
         run.finished_band = [&drawn](std::size_t band) { drawn.bands->write(band); };
     }
+    if (!in_bands) drawn.channels = std::make_unique<FilmChannels>(frame, *drawn.film);
     if (plan_.lines) {
         run.found_lines = [&](const FoundLines& lines, const Film& surfaces) {
             AtomicFile file(plan_.lines->path_of(drawn.number));
@@ -263,7 +266,25 @@ DrawnFrame FrameRenderer::draw(const OutputOptions& output, Progress* progress) 
     if (counts && drawn.times.render.fragments == 0 && !has_lines) note(kNoSurfaceIsSeen);
     for (const std::string& text : drawn.times.render.notes) note(text);
     is_first_ = false;
+    frame.next = nullptr;
     return drawn;
+}
+
+/// Finds where the surfaces of a frame are one frame later.
+void FrameRenderer::find_next(Frame& frame) {
+    if (!animation_.moves() || plan_.is_at_rest) return;
+    const double number = scene().frame.number + 1;
+    next_change_ = animation_.at(number);
+    const bool has_cameras = !next_change_.cameras.empty();
+    const Camera camera = job_camera_->at(has_cameras ? next_change_.cameras : first_cameras_, scene().picture, number);
+    std::vector<const Mesh*> meshes(scene().objects.size(), nullptr);
+    for (const auto& [changed, mesh] : next_change_.meshes) {
+        for (std::size_t object = 0; object < meshes.size(); ++object) {
+            if (posed_.mesh_as_loaded(object) == changed) meshes[object] = &mesh;
+        }
+    }
+    next_surfaces_ = surfaces_later(frame, next_change_.to_world, meshes, camera);
+    frame.next = &next_surfaces_;
 }
 
 RenderStats FrameRenderer::draw_picture(const Frame& frame, const RunOptions& run, Film& film, DrawnFrame& drawn) {

@@ -21,8 +21,9 @@ struct DrawnFrame {
     OutputOptions output;
     Frame frame;
     std::unique_ptr<Film> film;
-    std::unique_ptr<BandWriter> bands;  ///< set if an EXR was written while it was drawn, but for its name
-    VectorDrawing drawing;              ///< of vector files
+    std::unique_ptr<FilmChannels> channels;  ///< of the film, if it is written when it is drawn
+    std::unique_ptr<BandWriter> bands;       ///< set if an EXR was written while it was drawn, but for its name
+    VectorDrawing drawing;                   ///< of vector files
     StageTimes times;
     std::vector<double> skipped_behind;  ///< frames that come next and are there already
 
@@ -62,6 +63,7 @@ class FrameRenderer {
   private:
     LayerSet layers_of_picture(const Frame& frame, const OutputOptions& output, bool& in_bands) const;
     RenderStats draw_picture(const Frame& frame, const RunOptions& run, Film& film, DrawnFrame& drawn);
+    void find_next(Frame& frame);
     void note(const std::string& text);
 
     const Arguments& arguments_;
@@ -76,6 +78,8 @@ class FrameRenderer {
     std::vector<ViewOnSheet> views_;
     std::vector<CameraSettings> first_cameras_;  // at rest
     Camera camera_;
+    SceneChange next_change_;  // one frame later, for the layer `motion`
+    SurfaceSet next_surfaces_;
     double pose_s_ = 0;               // of the frame in work
     bool is_first_ = true;            // no frame was drawn
     std::vector<std::string> noted_;  // without their numbers: each is said once

@@ -119,6 +119,7 @@ void JobReport::tell(double frame, Status status, const StageTimes* times, const
     json.begin_object().key("frame").value(frame).key("output").value(plan_.picture.path_of(frame));
     json.key("status").value(kWords[status]);
     add_stages(json, times != nullptr ? *times : StageTimes());
+    if (times != nullptr && times->crypto_dropped) json.key("crypto_dropped").value(*times->crypto_dropped);
     json.key("triangles").value(times != nullptr ? times->render.triangles : 0);
     json.key("peak_rss_bytes").value(peak_memory_bytes()).key("error");
     if (error != nullptr) {

@@ -25,6 +25,8 @@ class PosedScene {
 
     const Scene& scene() const { return scene_; }
     Scene& scene() { return scene_; }
+    /// The mesh of an object, by its number as the scene was loaded.
+    std::uint32_t mesh_as_loaded(std::size_t object) const { return meshes_of_objects_[object]; }
     const PreparedScene& prepared() const { return prepared_; }
 
   private:
