@@ -143,6 +143,12 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method, b
         std::fputs("burin: note: --tolerance, --chord-sag, --dashes, --group, --ids and --merge are for vector files\n",
                    stderr);
     }
+    if (is_vector(output.format) && a.bits != Arguments().bits)
+        std::fputs("burin: note: --bits is for PNG and TIFF; paths have no bits per value\n", stderr);
+    if (a.page == PagePreset::laser && a.line_width_px && is_vector(output.format)) {
+        std::fputs("burin: note: --page laser makes all lines 0.01 mm wide; --line-width changes nothing here\n",
+                   stderr);
+    }
     if (output.format == OutputFormat::exr && (a.bits != Arguments().bits || !a.background.empty())) {
         std::fputs(
             "burin: note: --bits and --background are for PNG and TIFF; an EXR is half precision without paper\n",
@@ -216,12 +222,13 @@ void draw_by_sheet(Scene& scene) {
     scene.names_lines = true;
 }
 
-Film make_film(const Frame& frame, const LayerSet& layers, bool in_bands, const std::string& path) {
+/// `may_be_empty`: none of its pixels is asked for.
+Film make_film(const Frame& frame, const LayerSet& layers, bool in_bands, bool may_be_empty, const std::string& path) {
     try {
         const PixelRect display{0, 0, frame.width, frame.height};
         Film film = in_bands ? Film::in_bands(display, frame.crop, layers, frame.criteria.classes)
                              : Film(display, frame.crop, layers, frame.criteria.classes);
-        if (!film.channels().empty()) return film;
+        if (may_be_empty || !film.channels().empty()) return film;
     } catch (const InputError& error) {
         throw InputError(path + ": " + error.what());
     }
@@ -274,10 +281,11 @@ void run_render(const Arguments& a) {
 
     LayerSet layers = layers_for(scene, a);
     if (output.format != OutputFormat::exr) layers = LayerSet{true, false, false, false, false, false, false, false};
+    layers.beauty = layers.beauty && (!has_paths || a.saves_surface);  // paths are made without pixels
     // An EXR is compressed while it is drawn; but not when times are taken.
     const bool in_bands = output.format == OutputFormat::exr && a.repeat == 0 && views.empty() &&
                           method.finishes_in_bands != nullptr && method.finishes_in_bands(frame);
-    Film film = make_film(frame, layers, in_bands, output.path);
+    Film film = make_film(frame, layers, in_bands, has_paths, output.path);
     RunOptions run{a.threads, &progress, a.memory_bytes};
     std::optional<BandWriter> writer;
     if (in_bands) {

@@ -20,6 +20,7 @@ struct VectorStats {
     std::size_t mean_inks = 0;  ///< strokes whose colour or opacity varies: their paths have the means
     double chain_s = 0, clean_s = 0, fit_s = 0;
     double regions_s = 0;                                ///< surfaces
+    double merge_s = 0, sort_s = 0;                      ///< for machines
     std::optional<std::array<double, 2>> pen_travel_mm;  ///< between paths, before and after they were sorted
 };
 
