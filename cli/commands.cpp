@@ -306,7 +306,7 @@ void run_render(const Arguments& a) {
         RenderStats stats;
         if (VectorStats& paths = times.paths.emplace(); views.empty()) {
             const FoundLines lines = find_styled_lines(frame, run, film, stats);
-            drawing = draw_paths(lines, frame, a, paths, stats.notes);
+            drawing = draw_paths(lines, frame, a, paths, stats.notes, run.progress);
             if (draws_regions(scene, a))
                 draw_regions(seen_surfaces(scene, frame.camera, frame.crop, run), drawing, paths, stats.notes);
         } else {

@@ -15,12 +15,13 @@
 namespace burin {
 
 VectorDrawing draw_paths(const FoundLines& lines, const Frame& frame, const Arguments& a, VectorStats& stats,
-                         std::vector<std::string>& notes) {
+                         std::vector<std::string>& notes, Progress* progress) {
     InkedLines inked = ink_lines(lines, *frame.sheet, a.threads, notes, {true, a.cuts_dashes});
     VectorOptions options;
     options.bounds = {a.tolerance_px, a.chord_sag_px};
     options.grouping = a.grouping;
     options.crop = frame.crop;
+    options.progress = progress;
     VectorDrawing drawing = vector_drawing_of(std::move(inked), lines, options, stats);
     if (stats.mean_inks > 0) {
         notes.push_back("a path has one colour and opacity: " + std::to_string(stats.mean_inks) +

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "base/progress.h"
 #include "output/paths/fit_path.h"
 #include "output/paths/vector_drawing.h"
 #include "shading/ink/found_lines.h"
@@ -12,6 +13,7 @@ struct VectorOptions {
     FitBounds bounds;
     VectorGrouping grouping = VectorGrouping::line_class;
     PixelRect crop;  ///< of the picture: what is shown
+    Progress* progress = nullptr;
 };
 
 /// Counts and times of making paths, for --stats.

@@ -262,6 +262,17 @@ TEST(Pages, Machines) {
     EXPECT_TRUE(has(cut, "stroke-width=\"0.01\"")) << cut;
 }
 
+/// The paper of kept lines is that of their picture: options that would change it say what to do instead.
+TEST(Pages, RestyleHasThePaperOfItsLines) {
+    const TemporaryFolder folder;
+    for (const char* const option : {"--paper", "--scale", "--margin", "-r"}) {
+        const ProgramResult result =
+            run_burin(folder.path(), {"restyle", "a.lines", "--style", "technical", "-o", "a.svg", option, "A4"});
+        EXPECT_EQ(result.status, 2);
+        EXPECT_TRUE(has(result.err, "render it again with " + std::string(option) + " and --save-lines")) << result.err;
+    }
+}
+
 /// Lines that were kept are written for machines, too.
 TEST(Pages, RestyleWritesForMachines) {
     const TemporaryFolder folder;
