@@ -82,8 +82,7 @@ TopoDS_Shape bracket() {
                                           BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 10), 10, 50, 60).Shape())
                              .Shape();
     for (const double y : {12.0, 38.0}) shape = cut(shape, cylinder(60, y, -1, 5, 12));
-    const TopoDS_Shape across =
-        BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(-1, 25, 45), gp_Dir(1, 0, 0)), 14, 12).Shape();
+    const TopoDS_Shape across = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(-1, 25, 45), gp_Dir(1, 0, 0)), 14, 12).Shape();
     return with_round_corners(cut(shape, across), 3);
 }
 

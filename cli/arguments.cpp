@@ -280,6 +280,7 @@ void put_command_first(const CLI::App& app, std::vector<std::string>& arguments)
         "; burin " + (commands.empty() ? "" : command.get_name() + " ") + "--help lists the options";
     if (unknown == rest.end()) throw UsageError("'" + printable(rest.front()) + "': one input is enough" + help);
     const std::string name = unknown->substr(0, unknown->find('='));
+    if (command.get_name() == "restyle") refuse_option_of_view(name);
     std::vector<std::string> known;
     for (const CLI::Option* option : command.get_options()) {
         for (const std::string& n : option->get_lnames()) known.push_back("--" + n);

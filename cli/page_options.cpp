@@ -97,4 +97,11 @@ void fill_page_options(const PageTexts& t, Arguments& a) {
     fill_views(t, a);
 }
 
+void refuse_option_of_view(const std::string& name) {
+    constexpr std::string_view kOfView = " --paper --margin --scale --unit --dpi --views --size -r --camera ";
+    if (kOfView.find(" " + name + " ") == std::string_view::npos) return;
+    throw UsageError("restyle: '" + name + "' is that of the picture whose lines were saved; render it again with " +
+                     name + " and --save-lines");
+}
+
 }  // namespace burin

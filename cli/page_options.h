@@ -14,4 +14,7 @@ struct PageTexts {
 /// Checks them. Throws UsageError. The other options have been checked.
 void fill_page_options(const PageTexts& texts, Arguments& arguments);
 
+/// Refuses an option of `restyle` that would change the view in which its lines were found. Throws UsageError.
+void refuse_option_of_view(const std::string& name);
+
 }  // namespace burin

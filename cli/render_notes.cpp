@@ -44,6 +44,12 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method, b
         std::fputs("burin: note: --tolerance, --chord-sag, --dashes, --group, --ids and --merge are for vector files\n",
                    stderr);
     }
+    if (is_vector(output.format) && a.bits != Arguments().bits)
+        std::fputs("burin: note: --bits is for PNG and TIFF; paths have no bits per value\n", stderr);
+    if (a.page == PagePreset::laser && a.line_width_px && is_vector(output.format)) {
+        std::fputs("burin: note: --page laser makes all lines 0.01 mm wide; --line-width changes nothing here\n",
+                   stderr);
+    }
     if (output.format == OutputFormat::exr && (a.bits != Arguments().bits || !a.background.empty())) {
         std::fputs(
             "burin: note: --bits and --background are for PNG and TIFF; an EXR is half precision without paper\n",

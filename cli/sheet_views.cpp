@@ -55,7 +55,7 @@ RenderStats SheetViews::draw_as_paths(const RunOptions& run, Film& film, VectorD
         RenderStats found;
         const FoundLines lines = find_styled_lines(frame, run, film, found);
         VectorStats paths;
-        VectorDrawing own = draw_paths(lines, frame, arguments, paths, found.notes);
+        VectorDrawing own = draw_paths(lines, frame, arguments, paths, found.notes, run.progress);
         const PixelRect cell = cell_of(view.camera.area, frame.width, frame.height);
         if (draws_regions(scene, arguments))
             draw_regions(seen_surfaces(scene, view.camera, cell, run), own, paths, found.notes);

@@ -1,5 +1,6 @@
 #include "cli/vector_output.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -8,17 +9,19 @@
 #include "output/paths/path_order.h"
 #include "output/paths/surface_regions.h"
 #include "output/vector_files.h"
+#include "output/vector_layers.h"
 #include "shading/ink/ink_lines.h"
 
 namespace burin {
 
 VectorDrawing draw_paths(const FoundLines& lines, const Frame& frame, const Arguments& a, VectorStats& stats,
-                         std::vector<std::string>& notes) {
+                         std::vector<std::string>& notes, Progress* progress) {
     InkedLines inked = ink_lines(lines, *frame.sheet, a.threads, notes, {true, a.cuts_dashes});
     VectorOptions options;
     options.bounds = {a.tolerance_px, a.chord_sag_px};
     options.grouping = a.grouping;
     options.crop = frame.crop;
+    options.progress = progress;
     VectorDrawing drawing = vector_drawing_of(std::move(inked), lines, options, stats);
     if (stats.mean_inks > 0) {
         notes.push_back("a path has one colour and opacity: " + std::to_string(stats.mean_inks) +
@@ -26,6 +29,35 @@ VectorDrawing draw_paths(const FoundLines& lines, const Frame& frame, const Argu
     }
     return drawing;
 }
+
+namespace {
+
+/// Codes by which a colour that is hardly seen differs from the paper's.
+constexpr int kHardlySeen = 48;
+
+/// Notes what a look becomes on a page without saying so: paths in the colour of the paper, or in colours where offices
+/// want black.
+void note_on_looks(const Arguments& a, const VectorDrawing& drawing, std::vector<std::string>& notes) {
+    if (drawing.paths.empty()) return;
+    std::size_t pale = 0, colored = 0;
+    for (const VectorPath& path : drawing.paths) {
+        const glm::ivec3 codes = srgb_codes(drawing.styles[path.style].color);
+        const glm::ivec3 off = drawing.paper ? glm::abs(codes - srgb_codes(*drawing.paper)) : glm::ivec3(255);
+        pale += std::max({off.r, off.g, off.b}) < kHardlySeen ? 1 : 0;
+        colored += codes != glm::ivec3(0) ? 1 : 0;
+    }
+    const std::string count = std::to_string(drawing.paths.size());
+    if (pale == drawing.paths.size()) {
+        notes.push_back("all " + count +
+                        " paths are about as pale as the paper, or as dark, so nothing is seen; "
+                        "choose another --background or --color");
+    } else if (a.page == PagePreset::patent && colored > 0) {
+        notes.push_back("patent offices want black: " + std::to_string(colored) + " of " + count +
+                        " paths have other colours; --color '#000000' makes them black where the style sheet has it");
+    }
+}
+
+}  // namespace
 
 void draw_regions(const SurfaceGrid& seen, VectorDrawing& drawing, VectorStats& stats,
                   std::vector<std::string>& notes) {
@@ -55,12 +87,16 @@ void finish_drawing(const PictureSettings& picture, const Arguments& a, VectorDr
         }
     }
     if (a.page == PagePreset::laser) make_hairlines(kHairlineMm * drawing.dpi / 25.4, drawing);
+    Stopwatch watch;
     if (a.merges_paths) merge_paths(drawing);
+    stats.merge_s = watch.lap();
     if (is_for_machine) {
         const PenTravel travel = sort_for_pen(drawing);
+        stats.sort_s = watch.lap();
         stats.pen_travel_mm = {travel.before_px * 25.4 / drawing.dpi, travel.after_px * 25.4 / drawing.dpi};
     }
     stats.paths = drawing.paths.size();
+    note_on_looks(a, drawing, notes);
 }
 
 void write_vector(const VectorDrawing& drawing, const Arguments& a, const OutputOptions& output) {
@@ -82,6 +118,7 @@ void write_vector(const VectorDrawing& drawing, const Arguments& a, const Output
 void add_stages(JsonWriter& json, const VectorStats& stats) {
     json.key("chain").value(stats.chain_s).key("clean").value(stats.clean_s).key("fit").value(stats.fit_s);
     json.key("regions").value(stats.regions_s);
+    json.key("merge").value(stats.merge_s).key("sort").value(stats.sort_s);
 }
 
 void add_counts(JsonWriter& json, const VectorStats& stats) {

@@ -15,7 +15,7 @@ namespace burin {
 /// Draws lines as paths, as the frame's style sheet says. Of the frame's surfaces it reads nothing. `notes`: gets what
 /// users should know.
 VectorDrawing draw_paths(const FoundLines& lines, const Frame& frame, const Arguments& arguments, VectorStats& stats,
-                         std::vector<std::string>& notes);
+                         std::vector<std::string>& notes, Progress* progress = nullptr);
 
 /// Adds what is seen of surfaces to a drawing, below its lines. `notes`: gets what users should know.
 void draw_regions(const SurfaceGrid& seen, VectorDrawing& drawing, VectorStats& stats, std::vector<std::string>& notes);

@@ -112,7 +112,8 @@ class DxfWriter {
             std::string prefix = g.is_hidden ? "HIDDEN_" : "VISIBLE_";
             if (g.is_hidden && g.invisibility > 0) prefix += std::to_string(g.invisibility) + "_";
             const bool is_object = drawing_.grouping == VectorGrouping::object;
-            const std::string object = is_object && g.object > 0 ? drawing_.objects[g.object - 1] : "";
+            std::string object = is_object && g.object > 0 ? drawing_.objects[g.object - 1] : "";
+            if (is_object && object.empty()) object = g.object > 0 ? "OBJECT" : "NO_OBJECT";
             const std::string what = is_object ? std::to_string(g.object) + object : std::string(name_of(g.line_class));
             const auto [found, is_new] = numbers.try_emplace(prefix + what, layers_.size());
             if (is_new) {

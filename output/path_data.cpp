@@ -101,9 +101,9 @@ std::string text_of_hundredths(long long value) {
     return text;
 }
 
-std::string short_number(double value) {
+std::string short_number(double value, int decimals) {
     char text[400];
-    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, 4).ptr;
+    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, decimals).ptr;
     std::string number(text, end);
     while (number.back() == '0') number.pop_back();
     if (number.back() == '.') number.pop_back();

@@ -12,7 +12,7 @@ namespace burin {
 /// A number of hundredths as text, as short as it can be: "12", "-.5".
 std::string text_of_hundredths(long long hundredths);
 /// A number with up to four decimals.
-std::string short_number(double value);
+std::string short_number(double value, int decimals = 4);
 
 /// Dashes as viewers cut them: lengths of dashes and gaps in turn, and where in them a path begins.
 struct DashPattern {

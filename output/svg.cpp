@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -67,6 +68,17 @@ void set_dashes(const VectorStyle& style, float phase_px, Attributes& a) {
     a[kDashPhase] = short_number(pattern.phase);
 }
 
+/// A length in mm of which readers make this many pixels of 1/96 inch. Some read single precision, and round up what is
+/// left of a pixel; so it is never more.
+std::string mm_of_pixels(double px) {
+    constexpr int kDecimals = 6;
+    auto mm = static_cast<float>(px * 25.4 / 96);
+    if (mm == std::round(mm)) return short_number(px * 25.4 / 96);
+    constexpr double kLeast = 1e-6;
+    while (static_cast<double>(mm) / 25.4 * 96 > px - kLeast) mm = std::nextafter(mm, 0.0f);
+    return short_number(static_cast<double>(mm), kDecimals);
+}
+
 class SvgWriter {
   public:
     SvgWriter(const VectorDrawing& drawing, const SvgOptions& options) : drawing_(drawing), options_(options) {}
@@ -83,8 +95,13 @@ class SvgWriter {
         const ShownArea area = shown_area(drawing_);
         out_ += "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"";
         out_ += " xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" version=\"1.1\"";
-        out_ += " width=\"" + short_number(area.size_mm().x) + "mm\" height=\"" + short_number(area.size_mm().y) +
-                "mm\" viewBox=\"";
+        // A sheet has its exact size; a picture without one is in pixels.
+        const auto mm = [&](int axis) {
+            const double px = area.size_px[axis] * area.mm_per_px * 96 / 25.4;
+            const bool is_pixels = drawing_.paper_mm.x == 0 && std::abs(px - std::round(px)) < 1e-6;
+            return is_pixels ? mm_of_pixels(std::round(px)) : short_number(area.size_mm()[axis]);
+        };
+        out_ += " width=\"" + mm(0) + "mm\" height=\"" + mm(1) + "mm\" viewBox=\"";
         for (const double v : {area.low_px.x, area.low_px.y, area.size_px.x, area.size_px.y})
             out_ += (out_.back() == '"' ? "" : " ") + short_number(v);
         out_ += '"';

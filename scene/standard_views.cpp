@@ -91,9 +91,14 @@ struct Extent {
 };
 
 std::string mm_text(glm::dvec2 mm) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.4g x %.4g mm", mm.x, mm.y);
-    return text;
+    char text[400];
+    std::string sides[2];
+    for (int k = 0; k < 2; ++k) {
+        std::snprintf(text, sizeof text, mm[k] < 1e6 ? "%.1f" : "%.0f", mm[k]);
+        sides[k] = text;
+        if (sides[k].ends_with(".0")) sides[k].resize(sides[k].size() - 2);
+    }
+    return sides[0] + " x " + sides[1] + " mm";
 }
 
 /// Columns or rows of the sheet.

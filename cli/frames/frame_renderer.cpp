@@ -70,12 +70,13 @@ void refuse_layers(const LayerSet& layers, const Method& method, std::size_t vie
     if (view_count > 0) throw UsageError("--views: cannot stand beside layers crypto, line and motion; remove one");
 }
 
-Film make_film(const Frame& frame, const LayerSet& layers, bool in_bands, const std::string& path) {
+/// `may_be_empty`: none of its pixels is asked for.
+Film make_film(const Frame& frame, const LayerSet& layers, bool in_bands, bool may_be_empty, const std::string& path) {
     try {
         const PixelRect display{0, 0, frame.width, frame.height};
         Film film = in_bands ? Film::in_bands(display, frame.crop, layers, frame.criteria.classes)
                              : Film(display, frame.crop, layers, frame.criteria.classes);
-        if (!film.channels().empty() || film.mattes() != nullptr) return film;
+        if (may_be_empty || !film.channels().empty() || film.mattes() != nullptr) return film;
     } catch (const InputError& error) {
         throw InputError(path + ": " + error.what());
     }
@@ -207,7 +208,8 @@ LayerSet FrameRenderer::layers_of_picture(const Frame& frame, const OutputOption
     in_bands = output.format == OutputFormat::exr && arguments_.repeat == 0 && views_.empty() &&
                method_.finishes_in_bands != nullptr && method_.finishes_in_bands(frame);
     if (output.format == OutputFormat::exr) return layers;
-    return LayerSet{true, false, false, false, false, false, false, false};
+    const bool has_pixels = !is_vector(output.format) || arguments_.saves_surface;  // paths are made without
+    return LayerSet{has_pixels, false, false, false, false, false, false, false};
 }
 
 LayerSet FrameRenderer::layers_of_first_frame(const OutputOptions& output, bool& in_bands) {
@@ -229,7 +231,7 @@ DrawnFrame FrameRenderer::draw(const OutputOptions& output, Progress* progress) 
     if (layers.motion) find_next(drawn.frame);
     const Frame& frame = drawn.frame;
     if (is_first_) note_limits(arguments_, frame, method_, has_hidden_lines_, output);
-    drawn.film = std::make_unique<Film>(make_film(frame, layers, in_bands, output.path));
+    drawn.film = std::make_unique<Film>(make_film(frame, layers, in_bands, is_vector(output.format), output.path));
     RunOptions run{arguments_.threads, progress, arguments_.memory_bytes};
     if (in_bands) {
         drawn.bands = std::make_unique<BandWriter>(frame, *drawn.film, output);
@@ -294,7 +296,7 @@ RenderStats FrameRenderer::draw_picture(const Frame& frame, const RunOptions& ru
     RenderStats stats;
     if (VectorStats& paths = drawn.times.paths.emplace(); views_.empty()) {
         const FoundLines lines = find_styled_lines(frame, run, film, stats);
-        drawn.drawing = draw_paths(lines, frame, arguments_, paths, stats.notes);
+        drawn.drawing = draw_paths(lines, frame, arguments_, paths, stats.notes, run.progress);
         if (draws_regions(scene(), arguments_)) {
             draw_regions(seen_surfaces(posed_.scene(), frame.camera, frame.crop, run), drawn.drawing, paths,
                          stats.notes);

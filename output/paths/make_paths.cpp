@@ -81,18 +81,27 @@ VectorDrawing vector_drawing_of(InkedLines inked, const FoundLines& found, const
 
     drawing.sets = inked.sets;
 
+    // Four steps of about the same time; the last one line by line.
+    const std::size_t count = std::max<std::size_t>(inked.strokes.size(), 1);
+    if (options.progress != nullptr) options.progress->begin("making paths", 4 * count);
+    const auto advance = [&](std::size_t steps) {
+        if (options.progress != nullptr) options.progress->advance(steps);
+    };
     Stopwatch watch;
     const PixelRect picture{0, 0, found.width_px, found.height_px};
     inked = with_halos_cut(with_runs_merged(std::move(inked)), found.projection, picture);
     for (const InkStroke& stroke : inked.strokes) stats.mean_inks += varies(inked.points_of(stroke)) ? 1 : 0;
     PathLines lines = path_lines_of(inked, options.grouping, options.crop);
     stats.strokes = lines.lines.size();
+    advance(count);
     lines = chained_paths(lines);
     stats.chained = lines.lines.size();
     stats.chain_s = watch.lap();
+    advance(count);
     // Of what is left, other lines are the only ones that go on in each other.
     lines = chained_paths(cleaned_paths(lines, picture), true);
     stats.clean_s = watch.lap();
+    advance(count);
 
     sort_to_groups(options.grouping, lines.lines);
     drawing.styles = lines.styles;
@@ -115,6 +124,7 @@ VectorDrawing vector_drawing_of(InkedLines inked, const FoundLines& found, const
         path.start = fit_path(lines.points_of(line), line.is_closed, options.bounds, drawing.steps);
         path.step_count = drawing.steps.size() - path.first_step;
         add_in_parts(path, drawing);
+        advance(1);
     }
     drawing.edges = std::move(lines.edges);
     stats.paths = drawing.paths.size();

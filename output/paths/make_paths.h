@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "base/progress.h"
 #include "output/paths/fit_path.h"
 #include "output/paths/vector_drawing.h"
 #include "shading/ink/found_lines.h"
@@ -12,6 +13,7 @@ struct VectorOptions {
     FitBounds bounds;
     VectorGrouping grouping = VectorGrouping::line_class;
     PixelRect crop;  ///< of the picture: what is shown
+    Progress* progress = nullptr;
 };
 
 /// Counts and times of making paths, for --stats.
@@ -20,6 +22,7 @@ struct VectorStats {
     std::size_t mean_inks = 0;  ///< strokes whose colour or opacity varies: their paths have the means
     double chain_s = 0, clean_s = 0, fit_s = 0;
     double regions_s = 0;                                ///< surfaces
+    double merge_s = 0, sort_s = 0;                      ///< for machines
     std::optional<std::array<double, 2>> pen_travel_mm;  ///< between paths, before and after they were sorted
 };
 

@@ -157,6 +157,7 @@ TEST(Paper, WrongUse) {
         {{"--views", "front", "--eye", "1,2,3"}, "--views: cannot stand beside --eye"},
         {{"--views", "front,top", "--paper", "A5", "--scale", "100:1"},
          "--scale: at 100:1 the views need 200 x 407.4 mm"},
+        {{"--views", "front,top", "--paper", "A5", "--scale", "10000:1"}, "--scale: at 10000:1 the views need 20000 x"},
     };
     for (const auto& [options, message] : wrong) {
         const ProgramResult result = render(folder, options);
@@ -212,6 +213,39 @@ TEST(Pages, Iso128) {
     EXPECT_NEAR(width_of({"--page", "iso128", "--paper", "A1", "-r", "8410", "-w", "9"}), 9, 1e-3);
 }
 
+/// Workshop drawings have hidden lines at any depth; the sheet alone has those right behind a face.
+TEST(Pages, Iso128HasAllHiddenLines) {
+    const TemporaryFolder folder;
+    std::string scene = "[camera]\neye = [3, 2, 20]\ntarget = [0, 0, 0]\n";
+    for (const char* const at : {"[0, 0, -2]", "[0, 0, 2]", "[0, 0, 4]"})
+        scene += "[[object]]\nshape = 'box'\nsize = [4, 4, 1]\ntranslate = " + std::string(at) + "\n";
+    scene += "[[object]]\nshape = 'box'\nsize = [1, 1, 1]\ntranslate = [0, 0, -6]\n";
+    folder.write("a.toml", scene);
+    for (const bool is_page : {true, false}) {
+        const Arguments look = is_page ? Arguments{"--page", "iso128"} : Arguments{"--style", "technical"};
+        Arguments all = {"render", "a.toml", "-o", "a.svg", "-q"};
+        all.insert(all.end(), look.begin(), look.end());
+        ASSERT_EQ(run_burin(folder.path(), all).err, "");
+        const std::string svg = read_file(folder.file("a.svg"));
+        EXPECT_EQ(has(svg, "data-qi=\"3\"") || has(svg, "data-qi=\"4\"") || has(svg, "data-qi=\"5\""), is_page);
+    }
+}
+
+/// What a page makes of a look is said.
+TEST(Pages, NotesOnLooks) {
+    const TemporaryFolder folder;
+    const std::pair<Arguments, const char*> cases[] = {
+        {{"--page", "patent", "--style", "blueprint"}, "about as pale as the paper"},
+        {{"--background", "#000000"}, "about as pale as the paper, or as dark"},
+        {{"--page", "patent", "--color", "#ff0000"}, "patent offices want black"},
+        {{"--page", "laser", "-w", "5"}, "--line-width changes nothing here"},
+        {{"--bits", "16"}, "--bits is for PNG and TIFF"},
+    };
+    for (const auto& [options, note] : cases) EXPECT_TRUE(has(render(folder, options).err, note)) << note;
+    EXPECT_EQ(render(folder, {"--page", "patent"}).err, "");
+    EXPECT_EQ(render(folder, {"--background", "#000000", "--color", "#ffffff"}).err, "");
+}
+
 TEST(Pages, Machines) {
     const TemporaryFolder folder;
     const std::string plot = drawn(folder, {"--page", "plotter", "--stats", "stats.json", "-r", "1000"});
@@ -219,12 +253,24 @@ TEST(Pages, Machines) {
     EXPECT_FALSE(has(plot, "<rect"));
     const nlohmann::json stats = nlohmann::json::parse(read_file(folder.file("stats.json")));
     EXPECT_LT(stats["pen_travel_mm"].get<double>(), stats["pen_travel_unsorted_mm"].get<double>());
+    EXPECT_TRUE(stats["stages"].contains("merge") && stats["stages"].contains("sort"));
     EXPECT_TRUE(has(drawn(folder, {"--page", "plotter", "--background", "#ff0000"}), "<rect"));
     const int separate = polylines(drawn(folder, {"--page", "plotter"}, "out.dxf"));
     const int merged = polylines(drawn(folder, {"--page", "plotter", "--merge"}, "out.dxf"));
     EXPECT_LE(merged, separate);
     const std::string cut = drawn(folder, {"--page", "laser", "-r", "297"});
     EXPECT_TRUE(has(cut, "stroke-width=\"0.01\"")) << cut;
+}
+
+/// The paper of kept lines is that of their picture: options that would change it say what to do instead.
+TEST(Pages, RestyleHasThePaperOfItsLines) {
+    const TemporaryFolder folder;
+    for (const char* const option : {"--paper", "--scale", "--margin", "-r"}) {
+        const ProgramResult result =
+            run_burin(folder.path(), {"restyle", "a.lines", "--style", "technical", "-o", "a.svg", option, "A4"});
+        EXPECT_EQ(result.status, 2);
+        EXPECT_TRUE(has(result.err, "render it again with " + std::string(option) + " and --save-lines")) << result.err;
+    }
 }
 
 /// Lines that were kept are written for machines, too.

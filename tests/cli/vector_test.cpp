@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -37,7 +39,7 @@ TEST(VectorFiles, OptionsSayWhatIsInThem) {
         return text.find(part) != std::string::npos;
     };
     const std::string plain = svg({"--hidden", "dashed"});
-    EXPECT_TRUE(has(plain, "width=\"42.3333mm\" height=\"31.75mm\" viewBox=\"0 0 160 120\""));
+    EXPECT_TRUE(has(plain, "width=\"42.333332mm\" height=\"31.749998mm\" viewBox=\"0 0 160 120\""));
     EXPECT_TRUE(has(plain, "inkscape:label=\"1 visible\"") && has(plain, "inkscape:label=\"2 hidden\""));
     EXPECT_TRUE(has(plain, "stroke-dasharray=") && has(plain, "data-edge=") && has(plain, "id=\"paper\""));
     EXPECT_FALSE(has(svg({"--hidden", "dashed", "--dashes", "real"}), "stroke-dasharray"));
@@ -96,6 +98,33 @@ translate = [0.3, 0.3, 1.6]
     const std::string sheet = file("a.svg", {"--set", "surfaces.shading=flat", "--views", "front,top"});
     EXPECT_EQ(sheet.find("layer-surfaces"), sheet.rfind("layer-surfaces"));
     EXPECT_NE(sheet.find("id=\"top-s"), std::string::npos);
+}
+
+/// Readers that round up, as librsvg does, and those that do not, make the picture's pixels of a file's millimetres.
+TEST(VectorFiles, MillimetresAreThePixels) {
+    const TemporaryFolder folder;
+    for (const int width : {54, 139, 168, 1919, 2040}) {
+        ASSERT_EQ(run_burin(folder.path(), {"render", scene_file("cube.toml"), "-o", "a.svg", "-q", "-r",
+                                            std::to_string(width) + "x50"})
+                      .err,
+                  "");
+        const std::string svg = read_file(folder.file("a.svg"));
+        const double mm = std::stod(svg.substr(svg.find(" width=\"") + 8));
+        for (const double px : {mm / 25.4 * 96, static_cast<double>(static_cast<float>(mm)) / 25.4 * 96}) {
+            EXPECT_LE(px, width);
+            EXPECT_GT(px, width - 1e-3);
+        }
+    }
+}
+
+/// No film is made for them: a picture that has 64 million pixels takes little memory.
+TEST(VectorFiles, TakeNoPixels) {
+    const TemporaryFolder folder;
+    const auto run = run_burin(folder.path(), {"render", scene_file("cube.toml"), "-o", "a.svg", "-q", "-r",
+                                               "8000x8000", "--stats", "a.json"});
+    EXPECT_EQ(run.err, "");
+    const nlohmann::json stats = nlohmann::json::parse(read_file(folder.file("a.json")));
+    EXPECT_LT(stats["peak_rss_bytes"].get<double>(), 400e6);
 }
 
 TEST(VectorFiles, WhatCannotBeIsRefusedOrNoted) {

@@ -58,6 +58,23 @@ std::vector<glm::dvec2> flattened(const VectorDrawing& drawing, const VectorPath
     return points;
 }
 
+/// How far it is, is told while paths are made.
+TEST(VectorDrawings, TellProgress) {
+    Random random(2);
+    std::vector<PolygonSoup> objects = {rough_sphere(random, 24, 0.4), make_box({1.1, 0.7, 0.9})};
+    Camera camera;
+    camera.to_world[3] = glm::dvec4(0, 0, 6, 1);
+    ShadedScene scene(std::move(objects), camera, kPlain, kWidth, kHeight);
+    std::vector<double> told;
+    Progress progress([&](double part) { told.push_back(part); }, std::chrono::milliseconds(0));
+    VectorOptions options;
+    options.progress = &progress;
+    drawing_of(scene, options);
+    ASSERT_GT(told.size(), 10u);
+    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    EXPECT_GT(told.back(), 0.75);
+}
+
 std::string scene_with(const std::string& camera, const std::string& objects) {
     return "[camera]\n" + camera + "\n" + objects;
 }

@@ -397,6 +397,20 @@ TEST(Dxf, NamesOfLayersArePlainAndDiffer) {
     for (const auto& [name, entries] : layers) EXPECT_LE(name.size(), 31u);
 }
 
+TEST(Dxf, LayersOfObjectsWithoutNames) {
+    Drawing d;
+    d.drawing.grouping = VectorGrouping::object;
+    d.drawing.objects = {""};
+    for (std::uint32_t object = 0; object <= 1; ++object) {
+        d.begin_group(object == 0, LineClass::crease);
+        d.drawing.groups.back().object = object;
+        d.add({0, 0}, {line(10, 10)}, stroke(1));
+    }
+    const auto layers = DxfFile(dxf(d.drawing, nullptr)).table("LAYER");
+    EXPECT_TRUE(layers.contains("HIDDEN_NO_OBJECT"));
+    EXPECT_TRUE(layers.contains("VISIBLE_OBJECT"));
+}
+
 TEST(Dxf, AnEmptyDrawingIsAFile) {
     const DxfFile file(dxf(Drawing().drawing));
     EXPECT_TRUE(file.polylines().empty());
