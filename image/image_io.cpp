@@ -141,10 +141,12 @@ DisplayImage to_display(const Image& image, std::optional<glm::vec3> background)
     const glm::vec3 paper = background.value_or(glm::vec3(0.0f));
     const auto encode = [&](const glm::vec4& color, std::uint16_t* out) {
         const float alpha = color.a;
+        float before = 0;
         for (int c = 0; c < 3; ++c) {
             float linear = color[c] + (1 - alpha) * paper[c];
             if (!background && alpha > 0) linear = color[c] / alpha;
-            out[c] = srgb_code_value(linear);
+            out[c] = c > 0 && linear == before ? out[c - 1] : srgb_code_value(linear);  // most ink is grey
+            before = linear;
         }
         if (!background) out[3] = code_value(alpha);
     };

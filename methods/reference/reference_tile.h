@@ -77,7 +77,7 @@ class ReferenceTile {
     std::vector<Stroke> strokes_;
     std::optional<FragmentShader> shader_;
     std::vector<SurfaceFragment> fragments_;  // samples of the pixel at work that have a surface
-    FragmentColors colors_;           // of these
+    FragmentColors colors_;                   // of these
 };
 
 }  // namespace burin

@@ -7,68 +7,11 @@
 #include <string_view>
 
 #include "base/parallel.h"
+#include "shading/ink/line_chunks.h"
 #include "shading/ink/sampled_strokes.h"
 
 namespace burin {
 namespace {
-
-/// Stretches are evaluated in chunks of this many pieces, which do not depend on the number of threads.
-constexpr std::size_t kChunkPieces = 512;
-
-/// The line sets of each piece.
-SetMatches match_pieces(const LineColumns& lines, const CompiledSheet& sheet) {
-    const LineRuns& runs = lines.runs();
-    std::vector<LineClassSet> classes;
-    std::vector<std::uint8_t> invisibility;
-    std::vector<LineSample> middles;
-    for (std::uint32_t r = 0; r < runs.runs.size(); ++r) {
-        const LineRun& run = runs.runs[r];
-        for (std::size_t i = run.first; i < run.first + run.count; ++i) {
-            classes.push_back(runs.pieces[i].piece.classes);
-            invisibility.push_back(runs.pieces[i].piece.invisibility);
-            middles.push_back({r, static_cast<std::uint32_t>(i), 0.5});
-        }
-    }
-    SampleColumns columns;
-    lines.fill(middles, sheet.select_variables(), {}, columns);
-    return sheet.match({classes.size(), classes, invisibility, columns.columns()});
-}
-
-/// A part of the work: stretches that one set draws.
-struct Chunk {
-    std::uint32_t set = 0;
-    std::vector<LineStretch> stretches;
-    std::size_t pieces = 0;
-};
-
-std::vector<Chunk> chunks_of(const LineRuns& runs, const SetMatches& matches, std::size_t set_count) {
-    std::vector<std::vector<LineStretch>> of_set(set_count);
-    for (std::uint32_t r = 0; r < runs.runs.size(); ++r) {
-        const LineRun& run = runs.runs[r];
-        for (std::size_t i = run.first; i < run.first + run.count; ++i) {
-            for (const std::uint16_t set : matches.of(i)) {
-                std::vector<LineStretch>& stretches = of_set[set];
-                if (!stretches.empty() && stretches.back().run == r &&
-                    stretches.back().first + stretches.back().count == i) {
-                    ++stretches.back().count;
-                } else {
-                    stretches.push_back({r, i, 1});
-                }
-            }
-        }
-    }
-    std::vector<Chunk> chunks;
-    for (std::uint32_t set = 0; set < set_count; ++set) {
-        bool is_new = true;
-        for (const LineStretch& stretch : of_set[set]) {
-            if (is_new) chunks.push_back({set, {}, 0});
-            chunks.back().stretches.push_back(stretch);
-            chunks.back().pieces += stretch.count;
-            is_new = chunks.back().pieces >= kChunkPieces;
-        }
-    }
-    return chunks;
-}
 
 /// Opaque ink all along a piece.
 struct OpaqueInk {
@@ -91,7 +34,7 @@ class StrokeMaker {
   public:
     /// `boundaries`: the number of the boundary that each piece is, or InkPoint::kNoBoundary.
     StrokeMaker(const LineColumns& lines, const CompiledSheet& sheet, std::span<const std::uint32_t> boundaries,
-                const Chunk& chunk, const InkWishes& wishes, Inked& out)
+                const LineChunk& chunk, const InkWishes& wishes, Inked& out)
         : lines_(lines),
           sheet_(sheet),
           boundaries_(boundaries),
@@ -271,7 +214,7 @@ class StrokeMaker {
     const LineColumns& lines_;
     const CompiledSheet& sheet_;
     std::span<const std::uint32_t> boundaries_;
-    const Chunk& chunk_;
+    const LineChunk& chunk_;
     const CompiledStyle& style_;
     bool is_moved_ = false;  ///< the stroke
     const InkWishes& wishes_;
@@ -322,7 +265,7 @@ void add_ink_along(std::span<const Inked> parts, std::span<const std::uint32_t> 
     }
 }
 
-void add_notes_on_numbers(const CompiledSheet& sheet, std::span<const Chunk> chunks, std::span<const Inked> parts,
+void add_notes_on_numbers(const CompiledSheet& sheet, std::span<const LineChunk> chunks, std::span<const Inked> parts,
                           std::vector<std::string>& notes) {
     constexpr std::array<std::string_view, NotNumbersOfStyle::kCount> kNames = {"width",
                                                                                 "opacity",
@@ -378,7 +321,7 @@ InkedLines ink_lines(const FoundLines& found, const CompiledSheet& sheet, int th
                      const InkWishes& wishes) {
     const LineColumns lines(found, sheet.needs().classes, sheet.needs().variables);
     const SetMatches matches = match_pieces(lines, sheet);
-    const std::vector<Chunk> chunks = chunks_of(found.runs, matches, sheet.sets().size());
+    const std::vector<LineChunk> chunks = chunks_of(found.runs, matches, sheet.sets().size());
     InkedLines inked;
     const std::vector<std::uint32_t> boundaries = add_boundaries(lines, inked);
     std::vector<Inked> parts(chunks.size());

@@ -68,12 +68,28 @@ CompiledSet compile_set(const LineSet& set, const ExpressionSymbols& symbols, co
     return result;
 }
 
+/// Of sheets that come along with the program, groups may be empty: they are offers.
+std::vector<std::string> notes_on_empty_groups(const StyleSheet& sheet, const SheetContext& context) {
+    std::vector<std::string> notes;
+    if (sheet.file.empty()) return notes;
+    for (const ExpressionGroup& group : sheet.groups) {
+        const std::vector<std::string>& names = group.kind == "material" ? context.materials : context.objects;
+        if (std::any_of(names.begin(), names.end(),
+                        [&](const std::string& name) { return matches_globs(group.patterns, name); }))
+            continue;
+        notes.push_back("group " + group.name + ": no " + group.kind +
+                        " of the scene is in it (burin info lists them)");
+    }
+    return notes;
+}
+
 bool is_told_anyway(const std::array<int, 2>& qi) { return qi[0] <= 1 && (qi[1] == 0 || qi[1] == 255); }
 
 }  // namespace
 
 CompiledSheet::CompiledSheet(const StyleSheet& sheet, const SheetContext& context) {
     const ExpressionSymbols symbols = symbols_of(sheet, context);
+    notes_on_groups_ = notes_on_empty_groups(sheet, context);
     std::size_t steps_left = kMostSheetSteps;
     check_lets(sheet, symbols, steps_left);
     for (const LineSet& set : sheet.sets) sets_.push_back(compile_set(set, symbols, context, steps_left));
@@ -113,7 +129,7 @@ CompiledSheet::CompiledSheet(const StyleSheet& sheet, const SheetContext& contex
 }
 
 std::vector<std::string> CompiledSheet::notes_on_names() const {
-    std::vector<std::string> notes;
+    std::vector<std::string> notes = notes_on_groups_;
     const auto has_none = [](const std::vector<bool>& taken) {
         return std::find(taken.begin(), taken.end(), true) == taken.end();
     };

@@ -149,7 +149,8 @@ class CompiledSheet {
     /// What match() reads.
     const VariableSet& select_variables() const { return select_variables_; }
 
-    /// A note for each set that draws nothing since none of the picture's names fits its patterns.
+    /// A note for each set that draws nothing since none of the picture's names fits its patterns, and for each group
+    /// that is empty for the same reason.
     std::vector<std::string> notes_on_names() const;
 
     /// The class that a piece is drawn as: of its classes, the first one that any enabled set asks for.
@@ -163,6 +164,7 @@ class CompiledSheet {
     std::vector<CompiledStyle> styles_;
     SheetNeeds needs_;
     VariableSet select_variables_;
+    std::vector<std::string> notes_on_groups_;
 };
 
 }  // namespace burin

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "mesh/shapes.h"
+#include "tests/methods/level_crease.h"
 #include "tests/support/shaded_scene.h"
 
 namespace burin::styled_values_test {
@@ -13,23 +14,6 @@ namespace {
 
 using namespace test;
 
-/// A strip folded along a line of the picture, whose crease is its one line of that class. Depth runs from z0 to z1.
-PolygonSoup folded(glm::dvec3 from, glm::dvec3 to) {
-    const glm::dvec3 flat = glm::normalize(glm::dvec3(to.x - from.x, to.y - from.y, 0));
-    const glm::dvec3 across = 4.0 * glm::dvec3(-flat.y, flat.x, 0), down(0, 0, -4);
-    return soup_of({from, to, to + across + down, from + across + down, to - across + down, from - across + down},
-                   {{0, 1, 2, 3}, {1, 0, 5, 4}});
-}
-PolygonSoup rectangle(double x0, double y0, double x1, double y1, double z) {
-    return soup_of({{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}}, {{0, 1, 2, 3}});
-}
-/// A level crease from x0 to x1 at row y.
-ShadedScene level(double x0, double x1, double y, const std::string& style, const std::string& set = "",
-                  std::vector<PolygonSoup> more = {}) {
-    std::vector<PolygonSoup> objects{folded({x0, 100 - y, 0}, {x1, 100 - y, 0})};
-    objects.insert(objects.end(), more.begin(), more.end());
-    return {objects, pixel_camera(240, 100), sheet_of(R"("crease")", style, set), 240, 100};
-}
 /// The ink of a column of pixels.
 double ink_at(const Image& image, int x, int y0 = 0, int y1 = 100) {
     double sum = 0;
@@ -476,39 +460,6 @@ priority = )") + (is_thin_above ? "1" : "-1") +
         EXPECT_NEAR(value_at(image, "lines.R", 120, 53), 1, 0.01);
         EXPECT_NEAR(ink_at(image, 120), 7, 0.02);
     }
-}
-
-std::vector<std::string> notes_on(const ShadedScene& scene) {
-    std::vector<std::string> notes;
-    scene.inked(scene.whole(), 1, &notes);
-    return notes;
-}
-
-TEST(StyledValues, NotesSayWhichValuesOfALineAreNotNumbers) {
-    const std::string style =
-        "width = 2\ndash = [\"=0/0\", 4, \"=0/0\", 4]\ndash_phase = \"=0/0\"\nmin_length = \"=0/0\"\n"
-        "taper = { start = 3, end = \"=0/0\" }\nwobble = { amplitude = \"=0/0\", wavelength = 9 }\n"
-        "overshoot = \"=0/0\"\nhalo = \"=0/0\"\nhalo_depth = [\"=0/0\", 9]\n";
-    std::vector<std::string> names;
-    for (const std::string& note : notes_on(level(20, 220, 50, style))) {
-        EXPECT_NE(note.find(" is not a number at 1 lines, first at pixel "), std::string::npos) << note;
-        names.push_back(note.substr(0, note.find(" is not")));
-    }
-    EXPECT_EQ(names, (std::vector<std::string>{"style ink: taper.end", "style ink: dash_phase", "style ink: overshoot",
-                                               "style ink: wobble.amplitude", "style ink: halo",
-                                               "style ink: halo_depth", "style ink: min_length", "style ink: dash"}));
-    EXPECT_TRUE(notes_on(level(20, 220, 50, "width = 2\ndash = [4, 4]\nmin_length = 3\n")).empty());
-}
-
-TEST(StyledValues, NotesNameSetsWhosePatternsFitNothing) {
-    const auto notes_of = [](const std::string& set) { return notes_on(level(20, 220, 50, "width = 2", set)); };
-    EXPECT_EQ(notes_of("objects = [\"nothing*\", \"none\"]\n"),
-              std::vector<std::string>{"set all: no object fits its objects; parts of a file are called NAME/PART "
-                                       "(burin info lists them)"});
-    EXPECT_EQ(notes_of("materials = [\"nothing\"]\n"),
-              std::vector<std::string>{"set all: no material fits its materials (burin info lists them)"});
-    EXPECT_TRUE(notes_of("objects = [\"*\"]\nmaterials = [\"*\"]\n").empty());
-    EXPECT_TRUE(notes_of("objects = [\"nothing\"]\nenabled = false\n").empty());
 }
 
 }  // namespace
