@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/suggestion.h"
+#include "cli/blur_options.h"
 #include "cli/option_values.h"
 #include "cli/page_options.h"
 #include "cli/vector_options.h"
@@ -32,6 +33,7 @@ struct Texts {
         model_memory, stats, bits;
     PageTexts page;
     VectorTexts vector;
+    BlurTexts blur;
     std::string repeat, progress, pixel, background, methods, compare_frames;
     std::vector<std::string> sets;
     int verbose = 0;
@@ -159,6 +161,15 @@ void add_render_options(CLI::App& app, Texts& t) {
     app.add_option("--progress", t.progress, "alf: print ALF_PROGRESS lines");
 }
 
+void add_blur_options(CLI::App& app, Texts& t) {
+    app.add_option("--shutter", t.blur.shutter,
+                   "motion blur: when the shutter opens and closes, in frames relative to the frame: -0.25,0.25");
+    app.add_option("--lens", t.blur.lens, "depth of field: radius of the lens, in world units");
+    app.add_option("--focus", t.blur.focus, "distance in focus, in world units (default: that of the target)");
+    app.add_option("--blur-samples", t.blur.samples,
+                   "sub-frames of a blurred picture: auto (default), as many as it needs, or 1 to 4096; 1: no blur");
+}
+
 void add_restyle_options(CLI::App& app, Texts& t) {
     app.add_option("INPUT", t.input, "lines that burin render --save-lines has written")->required();
     add_file_options(app, t);
@@ -206,7 +217,8 @@ std::vector<std::string> join_vectors(int argc, char** argv) {
     std::vector<std::string> arguments;
     for (int i = 1; i < argc; ++i) {
         std::string argument = argv[i];
-        const bool takes_vector = argument == "--eye" || argument == "--target" || argument == "--up";
+        const bool takes_vector =
+            argument == "--eye" || argument == "--target" || argument == "--up" || argument == "--shutter";
         if (takes_vector && i + 1 < argc) argument += std::string("=") + argv[++i];
         arguments.push_back(std::move(argument));
     }
@@ -411,6 +423,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     add_paper_options(*render, t);
     add_method_option(*render, t);
     add_render_options(*render, t);
+    add_blur_options(*render, t);
     CLI::App* const info = app.add_subcommand("info", "say what is in a scene or a model");
     add_input_options(*info, t);
     info->add_flag("--json", t.json, "as JSON");
@@ -489,6 +502,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         fill_render_options(t, a);
         fill_page_options(t.page, a);
         fill_vector_options(t.vector, a);
+        fill_blur_options(t.blur, a);
         if (*compare) fill_compare_options(t, a);
         if (*explain) a.pixel = integers<2>("--pixel", t.pixel, ',', "X,Y");
     }

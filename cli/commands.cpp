@@ -16,6 +16,7 @@
 #include "base/lower_extension.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "cli/blur.h"
 #include "cli/job.h"
 #include "cli/output_options.h"
 #include "cli/sheet_views.h"
@@ -268,10 +269,13 @@ void run_render(const Arguments& a) {
     times.load_s = watch.lap();
     note_limits(a, frame, method, has_hidden_lines, output);
 
+    const Blur blur = blur_of(scene, camera, a, false, has_paths);
+    const MomentAt moment_at = [&](double, MomentUse) { return Moment{&scene, camera, &prepared}; };
+    const int sub_frames = sub_frame_count(blur, moment_at, frame.width, frame.height);
     LayerSet layers = layers_for(scene, a);
     if (output.format != OutputFormat::exr) layers = LayerSet{true, false, false, false, false, false, false, false};
     // An EXR is compressed while it is drawn; but not when times are taken.
-    const bool in_bands = output.format == OutputFormat::exr && a.repeat == 0 && views.empty() &&
+    const bool in_bands = output.format == OutputFormat::exr && a.repeat == 0 && views.empty() && sub_frames == 1 &&
                           method.finishes_in_bands != nullptr && method.finishes_in_bands(frame);
     Film film = make_film(frame, layers, in_bands, output.path);
     RunOptions run{a.threads, &progress, a.memory_bytes};
@@ -289,7 +293,14 @@ void run_render(const Arguments& a) {
     }
     VectorDrawing drawing;
     const SheetViews sheet{scene, a, views, &prepared};
+    const auto blurred = [&] {
+        if (run.progress != nullptr) progress.plan(sub_frames_drawn(sub_frames, run, film));
+        return render_blurred(method, blur, sub_frames, moment_at, frame.width, frame.height, run, film, [&] {
+            if (run.progress != nullptr) progress.next_part("rendering", 1);
+        });
+    };
     const auto draw = [&] {
+        if (sub_frames > 1) return blurred();
         if (!has_paths) return views.empty() ? method.render(frame, run, film) : sheet.draw(method, run, film);
         RenderStats stats;
         if (VectorStats& paths = times.paths.emplace(); views.empty()) {

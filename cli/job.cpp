@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/lower_extension.h"
+#include "cli/blur.h"
 #include "cli/sheet_wishes.h"
 #include "mesh/model.h"
 #include "mesh/text_scan.h"
@@ -70,6 +71,7 @@ CameraSettings viewing_camera(const Scene& scene, const Arguments& a) {
 /// That camera with the area of the paper that the view fills, and the height that its scale says.
 CameraSettings camera_settings(const Scene& scene, const Arguments& a) {
     CameraSettings camera = viewing_camera(scene, a);
+    set_lens(a, camera);
     const PaperSettings& paper = scene.picture.paper;
     if (paper.scale && a.ortho_height)
         throw UsageError("--ortho: cannot stand beside picture.scale, which says the same; remove one");

@@ -37,6 +37,7 @@ struct SceneDescription {
     std::vector<CameraSettings> cameras;
     PictureSettings picture;
     FrameSettings frame;
+    std::optional<ShutterSettings> shutter;
     LineSettings lines;
     std::shared_ptr<const StyleSheet> sheet;
     std::vector<std::string> unread_line_keys;  ///< keys of [lines] that nothing reads beside the sheet
