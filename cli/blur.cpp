@@ -28,7 +28,10 @@ Blur blur_of(const Scene& scene, const Camera& camera, const Arguments& a, bool 
     if (a.has_blur_samples && !blur.is_asked_for())
         throw UsageError("--blur-samples: nothing is blurred; give --shutter or --lens");
     if (blur.is_asked_for() && blur.samples != 1) {
-        const char* const option = a.shutter ? "--shutter" : a.lens_radius ? "--lens" : blur.has_lens ? "lens_radius" : "[shutter]";
+        const char* const option = a.shutter       ? "--shutter"
+                                   : a.lens_radius ? "--lens"
+                                   : blur.has_lens ? "lens_radius"
+                                                   : "[shutter]";
         const auto refuse = [&](bool is_given, const std::string& what) {
             if (is_given) throw UsageError(std::string(option) + ": " + what + "; --blur-samples 1 draws without blur");
         };

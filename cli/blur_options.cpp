@@ -10,9 +10,8 @@ void fill_blur_options(const BlurTexts& t, Arguments& a) {
     if (!t.shutter.empty()) {
         const auto parts = split(t.shutter, ',');
         if (parts.size() != 2) {
-            fail("--shutter",
-                 "must be OPEN,CLOSE in frames relative to the frame, such as -0.25,0.25, got '" + printable(t.shutter) +
-                     "'");
+            fail("--shutter", "must be OPEN,CLOSE in frames relative to the frame, such as -0.25,0.25, got '" +
+                                  printable(t.shutter) + "'");
         }
         a.shutter = {number("--shutter", parts[0]), number("--shutter", parts[1])};
         for (const double time : *a.shutter) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/parallel.h"
+#include "base/limit_error.h"
 #include "render/blur_extent.h"
 #include "render/blur_sums.h"
 
@@ -76,8 +76,7 @@ class BlurredFrame {
   private:
     Frame frame_of(const SubFrame& sub, PixelRect rows) {
         const Moment moment = moment_at_(sub.time, MomentUse::drawing);
-        const Camera camera =
-            sub.lens == glm::dvec2(0.0) ? moment.camera : from_lens_point(moment.camera, sub.lens);
+        const Camera camera = sub.lens == glm::dvec2(0.0) ? moment.camera : from_lens_point(moment.camera, sub.lens);
         return make_frame(*moment.scene, camera, width_, height_, rows, moment.prepared);
     }
 
@@ -110,7 +109,11 @@ class BlurredFrame {
                 frame.reset();  // it borrows the moment before
                 frame = frame_of(subs[i], rows);
             }
-            draw_frame(*frame, film, options);
+            try {
+                draw_frame(*frame, film, options);
+            } catch (const LimitError& error) {
+                throw LimitError(error.what() + std::string("; a blurred one takes twice that"));
+            }
             if (!in_bands) sums.add(film.image(), options.threads);
         }
         sums.put_mean(static_cast<int>(subs.size()), film_.image(), options.threads);
@@ -167,8 +170,7 @@ RenderStats render_blurred(const Method& method, const Blur& blur, int count, co
 }
 
 std::size_t sub_frames_drawn(int count, const RunOptions& options, const Film& film) {
-    return bands_of(film, options).size() * static_cast<std::size_t>(count) +
-           (all_have_mean(film.channels()) ? 0 : 1);
+    return bands_of(film, options).size() * static_cast<std::size_t>(count) + (all_have_mean(film.channels()) ? 0 : 1);
 }
 
 }  // namespace burin

@@ -110,9 +110,9 @@ void BlurExtent::add(const Scene& scene, const Camera& camera) {
         const SceneObject& object = scene.objects[place.object];
         const Mesh& mesh = scene.meshes[object.mesh];
         if (i == 0 || place.object != places_[i - 1].object) object_to_view = to_view * object.to_world;
-        const glm::dvec3 position =
-            place.is_on_edge ? glm::mix(mesh.position(place.a), mesh.position(place.b), place.share)
-                             : mesh.position(place.a);
+        const glm::dvec3 position = place.is_on_edge
+                                        ? glm::mix(mesh.position(place.a), mesh.position(place.b), place.share)
+                                        : mesh.position(place.a);
         const glm::dvec3 view(object_to_view * glm::dvec4(position, 1.0));
         const bool is_in_front = -view.z > projection.near_distance;
         const bool is_seen = (place.is_on_edge ? around : picture).has(view);
@@ -121,8 +121,7 @@ void BlurExtent::add(const Scene& scene, const Camera& camera) {
         if (is_in_front && track.was_in_front && (is_seen || track.was_seen))
             track.way_px += glm::distance(pixel, track.before);
         if (is_seen && camera.lens_radius > 0) {
-            const double radius =
-                camera.lens_radius * projection.focal_px * std::abs(1 / -view.z - 1 / camera.focus);
+            const double radius = camera.lens_radius * projection.focal_px * std::abs(1 / -view.z - 1 / camera.focus);
             circle_px_ = std::max(circle_px_, 2 * radius);
         }
         track = {pixel, is_in_front, is_seen, track.way_px};

@@ -61,7 +61,8 @@ BlurSums::BlurSums(PixelRect rect, const std::vector<ChannelFormat>& channels) :
         if (!has_mean(channels[i])) continue;
         // What no picture has anything in stays as the system gives it: zero, and without memory.
         auto* const zeros = static_cast<float*>(std::calloc(pixels, sizeof(float)));
-        if (zeros == nullptr) throw InputError("not enough memory for a blurred picture; make it smaller, or less of it");
+        if (zeros == nullptr)
+            throw InputError("not enough memory for a blurred picture; make it smaller, or less of it");
         sums_.push_back({channels[i].name, i, std::unique_ptr<float[], Free>(zeros)});
     }
 }

@@ -13,7 +13,8 @@ void read_curve(TomlReader& t, ShutterSettings& shutter) {
         shutter.rise = (*parts)[0];
         shutter.fall = (*parts)[1];
         if (!(shutter.rise >= 0 && shutter.fall >= 0 && shutter.rise + shutter.fall <= 1)) {
-            t.fail("curve", "must be \"box\", \"triangle\", or two parts of the time, 0 or more, that add up to at most 1");
+            t.fail("curve",
+                   "must be \"box\", \"triangle\", or two parts of the time, 0 or more, that add up to at most 1");
         }
     }
 }
