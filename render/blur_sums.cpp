@@ -1,6 +1,7 @@
 #include "render/blur_sums.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -15,6 +16,15 @@ namespace {
 
 constexpr std::size_t kRowsAtOnce = 16;
 
+typedef std::uint16_t EightHalves __attribute__((vector_size(16)));
+
+void add_four(const FourHalves& halves, float* to) {
+    FourFloats sum;
+    std::memcpy(&sum, to, sizeof sum);
+    sum += floats_from_halves(halves);
+    std::memcpy(to, &sum, sizeof sum);
+}
+
 /// Adds numbers in half precision. Most of a picture is background, whose zeros change nothing.
 void add_halves(const std::uint16_t* from, std::size_t count, float* to) {
     constexpr std::size_t kEight = 8;
@@ -23,12 +33,10 @@ void add_halves(const std::uint16_t* from, std::size_t count, float* to) {
         std::uint64_t bits[2];
         std::memcpy(bits, from + i, sizeof bits);
         if ((bits[0] | bits[1]) == 0) continue;
-        for (std::size_t k = i; k < i + kEight; k += 4) {
-            FourFloats sum;
-            std::memcpy(&sum, to + k, sizeof sum);
-            sum += floats_from_halves(FourHalves{from[k], from[k + 1], from[k + 2], from[k + 3]});
-            std::memcpy(to + k, &sum, sizeof sum);
-        }
+        const EightHalves halves = std::bit_cast<EightHalves>(bits), zero = {};
+        add_four(std::bit_cast<FourHalves>(__builtin_shufflevector(halves, zero, 0, 8, 1, 9, 2, 10, 3, 11)), to + i);
+        add_four(std::bit_cast<FourHalves>(__builtin_shufflevector(halves, zero, 4, 12, 5, 13, 6, 14, 7, 15)),
+                 to + i + 4);
     }
     for (; i < count; ++i) to[i] += float_from_half(from[i]);
 }
