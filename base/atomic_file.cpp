@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -13,6 +14,8 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <map>
+#include <set>
 #include <string_view>
 #include <system_error>
 
@@ -53,9 +56,20 @@ void forget_temporary_file(const std::string& path) {
     }
 }
 
+constexpr std::string_view kMark = ".burin-";
+
+/// Of this machine; several may write to one folder.
+std::string host_name() {
+    char name[65] = "";
+    if (::gethostname(name, sizeof name - 1) != 0 || name[0] == '\0') return "host";
+    std::string text(name);
+    std::replace(text.begin(), text.end(), '/', '_');
+    return text;
+}
+
 /// Temporary files for `target` are called this, then PROCESS-NUMBER.
 std::string temporary_stem(const fs::path& target) {
-    return "." + target.filename().stem().string().substr(0, 100) + ".burin-";
+    return "." + target.filename().stem().string().substr(0, 100) + std::string(kMark) + host_name() + "-";
 }
 
 fs::path temporary_path(const fs::path& target, int number) {
@@ -77,8 +91,7 @@ bool is_left_behind(const fs::path& folder, std::string_view name, const std::st
     if (error != std::errc() || process <= 0 || end == name.data() + name.size() || *end != '-') return false;
     const bool is_alive = ::kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH;
     if (is_alive && process != ::getpid()) return false;
-    // On another machine, or in another container, the number may be alive: then the file is
-    // locked.
+    // In another container of this name the number may be alive: then the file is locked.
     const fs::path path = folder / fs::path(stem + std::string(name));
     const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     struct stat info {};
@@ -88,15 +101,20 @@ bool is_left_behind(const fs::path& folder, std::string_view name, const std::st
     return is_free;
 }
 
-void remove_left_behind(const fs::path& target) {
-    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-    const std::string stem = temporary_stem(target);
+/// Removes what is left behind in a folder of temporary files with these stems.
+void remove_left_behind(const fs::path& folder, const std::set<std::string>& stems) {
+    const std::string behind_mark = host_name() + "-";
     std::error_code error;
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
         const std::string name = it->path().filename().string();
-        if (is_left_behind(folder, name, stem)) ::unlink(it->path().c_str());
+        const std::size_t mark = name.rfind(kMark);
+        if (name[0] != '.' || mark == std::string::npos) continue;
+        const auto stem = stems.find(name.substr(0, mark + kMark.size()) + behind_mark);
+        if (stem != stems.end() && is_left_behind(folder, name, *stem)) ::unlink(it->path().c_str());
     }
 }
+
+fs::path folder_of(const fs::path& target) { return target.has_parent_path() ? target.parent_path() : fs::path("."); }
 
 // ---- where files go ----
 
@@ -239,7 +257,16 @@ void AtomicFile::commit() {
 void check_output_file(const std::string& path) {
     const std::string target = followed(path);
     const AtomicFile writable(path);
-    remove_left_behind(target);
+    remove_left_behind(folder_of(target), {temporary_stem(target)});
+}
+
+void remove_left_behind(const std::vector<std::string>& paths) {
+    std::map<fs::path, std::set<std::string>> stems;
+    for (const std::string& path : paths) {
+        const fs::path target = followed(path);
+        stems[folder_of(target)].insert(temporary_stem(target));
+    }
+    for (const auto& [folder, of_folder] : stems) remove_left_behind(folder, of_folder);
 }
 
 void remove_temporary_files() noexcept {

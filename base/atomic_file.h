@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "base/byte_sink.h"
 
@@ -47,6 +48,10 @@ class AtomicFile final : public ByteSink {
 /// Fails before the work, not after it: throws what an AtomicFile of this path would throw. Removes
 /// temporary files for this path that processes left behind which are dead.
 void check_output_file(const std::string& path);
+
+/// Removes temporary files for these paths that processes of this host left behind which are dead. Each folder is read
+/// once.
+void remove_left_behind(const std::vector<std::string>& paths);
 
 /// Removes the temporary files of this process. May be called by signal handlers and where memory
 /// has run out.

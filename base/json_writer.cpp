@@ -70,6 +70,10 @@ void append_quoted(std::string& out, std::string_view text) {
 }  // namespace
 
 void JsonWriter::line_break() {
+    if (layout_ == Layout::one_line) {
+        if (text_.back() == ',') text_ += ' ';
+        return;
+    }
     text_ += '\n';
     text_.append(2 * has_items_.size(), ' ');
 }

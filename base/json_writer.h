@@ -16,6 +16,9 @@ namespace burin {
 /// Numbers that JSON cannot hold (NaN, infinities) become null.
 class JsonWriter {
   public:
+    enum class Layout : bool { indented, one_line };
+    explicit JsonWriter(Layout layout = Layout::indented) : layout_(layout) {}
+
     JsonWriter& begin_object();
     JsonWriter& end_object();
     JsonWriter& begin_array();
@@ -39,6 +42,7 @@ class JsonWriter {
     void line_break();
     JsonWriter& close(char bracket);
 
+    Layout layout_;
     std::string text_;
     std::vector<bool> has_items_;  // one per open bracket
     bool after_key_ = false;

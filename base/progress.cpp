@@ -86,8 +86,7 @@ void Progress::show(std::uint64_t done) {
         last_percent_ = percent;
         return;
     }
-    const double elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
-    const double left_s = complete > 0 ? elapsed_s * (1 - complete) / complete : 0;
+    const double left_s = seconds_left(complete);
     const int filled = static_cast<int>(complete * kBarWidth);
     std::string bar(static_cast<std::size_t>(filled), '#');
     bar.resize(kBarWidth, '.');
@@ -97,13 +96,36 @@ void Progress::show(std::uint64_t done) {
     bar_visible_ = true;
 }
 
+double Progress::seconds_left(double complete) const {
+    const auto since = [](Clock::time_point start) {
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    };
+    if (expected_s_ >= 0) return std::max(0.0, expected_s_ - since(expected_since_));
+    return complete > 0 ? since(start_) * (1 - complete) / complete : 0;
+}
+
+void Progress::expect(double seconds) {
+    if (style_ == ProgressStyle::none) return;
+    const std::lock_guard lock(mutex_);
+    expected_s_ = seconds;
+    expected_since_ = Clock::now();
+}
+
+void Progress::hide() {
+    const std::lock_guard lock(mutex_);
+    clear_bar();
+}
+
+void Progress::clear_bar() {
+    if (!bar_visible_) return;
+    std::fputs("\r\x1b[K", stderr);
+    std::fflush(stderr);
+    bar_visible_ = false;
+}
+
 void Progress::finish() {
     const std::lock_guard lock(mutex_);
-    if (bar_visible_) {
-        std::fputs("\r\x1b[K", stderr);
-        std::fflush(stderr);
-        bar_visible_ = false;
-    }
+    clear_bar();
     if (style_ == ProgressStyle::alf && any_phase_ && done_ >= steps_ && last_percent_ != 100 &&
         weight_before_ + part_weight_ >= total_weight_) {
         std::printf("ALF_PROGRESS 100%%\n");

@@ -42,6 +42,10 @@ class Progress {
     /// the total.
     void next_part(std::string label, std::uint64_t weight);
     void advance(std::uint64_t steps = 1);
+    /// The job that was planned will take so many seconds more: from now on that is what is shown as left.
+    void expect(double seconds);
+    /// Clears the bar from the screen until it is shown again.
+    void hide();
     /// Clears the bar from the screen, or reports 100 %. Idempotent.
     void finish();
 
@@ -51,6 +55,8 @@ class Progress {
     void show(std::uint64_t done);
     void start_phase(std::uint64_t steps);
     double fraction(std::uint64_t done);
+    double seconds_left(double complete) const;
+    void clear_bar();
 
     ProgressStyle style_;
     std::function<void(double)> tell_;
@@ -65,6 +71,8 @@ class Progress {
     std::uint64_t total_weight_ = 0;  // 0: every phase is a job of its own
     std::uint64_t weight_before_ = 0;
     std::uint64_t part_weight_ = 0;
+    double expected_s_ = -1;  // left at expected_since_; negative: nobody has said it
+    Clock::time_point expected_since_{};
     double highest_ = 0;  // a planned job's bar never moves back
     int last_percent_ = -1;
     bool bar_visible_ = false;

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/suggestion.h"
-#include "cli/blur_options.h"
+#include "cli/frame_options.h"
 #include "cli/option_values.h"
 #include "cli/page_options.h"
 #include "cli/vector_options.h"
@@ -23,17 +23,15 @@ namespace {
 
 using namespace option_values;
 
-[[noreturn]] void fail_version(const std::string& option) { fail(option, "not in this version"); }
-
 /// Options as they were typed.
 struct Texts {
     std::string input, output, size, eye, target, up, fov, ortho, camera, method, mask, samples, lines, operators,
         supersample;
-    std::string width, color, frame, save_lines, find, crease, hidden, style, layers, frames, crop, threads, memory,
+    std::string width, color, frame, save_lines, find, crease, hidden, style, layers, crop, threads, memory,
         model_memory, stats, bits;
     PageTexts page;
     VectorTexts vector;
-    BlurTexts blur;
+    FrameTexts frames;
     std::string repeat, progress, pixel, background, methods, compare_frames;
     std::vector<std::string> sets;
     int verbose = 0;
@@ -152,7 +150,6 @@ void add_render_options(CLI::App& app, Texts& t) {
         "--find", t.find,
         "lines that are looked for: sheet (default), those that the style sheet asks for, or all, so that any "
         "sheet with the same crease_angle and contours can restyle them");
-    app.add_option("-f,--frames", t.frames, "frames to render (not in this version)");
     app.add_option("--crop", t.crop, "render only these pixels, X0,Y0,X1,Y1, half open");
     app.add_option("--memory", t.memory,
                    "method abuffer: cap for the renderer's own memory beyond the model and the finished image, "
@@ -161,13 +158,15 @@ void add_render_options(CLI::App& app, Texts& t) {
     app.add_option("--progress", t.progress, "alf: print ALF_PROGRESS lines");
 }
 
-void add_blur_options(CLI::App& app, Texts& t) {
-    app.add_option("--shutter", t.blur.shutter,
-                   "motion blur: when the shutter opens and closes, in frames relative to the frame: -0.25,0.25");
-    app.add_option("--lens", t.blur.lens, "depth of field: radius of the lens, in world units");
-    app.add_option("--focus", t.blur.focus, "distance in focus, in world units (default: that of the target)");
-    app.add_option("--blur-samples", t.blur.samples,
-                   "sub-frames of a blurred picture: auto (default), as many as it needs, or 1 to 4096; 1: no blur");
+void add_frame_options(CLI::App& app, Texts& t) {
+    app.add_option("-f,--frames", t.frames.frames,
+                   "frames to render, such as 1-100, 1-100x2 or 1,5,9-12; names then have a pattern, as out.####.exr");
+    app.add_option("--fps", t.frames.fps, "frames per second, such as 24 (default) or 24000/1001");
+    app.add_option("--turntable", t.frames.turntable, "the camera goes around the scene in this many frames");
+    app.add_flag("--skip-existing", t.frames.skips_existing,
+                 "leave out frames that are there, whole and made from the same input");
+    for (const BlurOption& option : blur_options(t.frames.blur)) app.add_option(option.name, *option.text, option.help);
+    app.add_flag("--keep-going", t.frames.keeps_going, "a frame that fails does not end the job");
 }
 
 void add_restyle_options(CLI::App& app, Texts& t) {
@@ -203,6 +202,16 @@ void add_compare_options(CLI::App& app, Texts& t) {
     app.add_option("--progress", t.progress, "alf: print ALF_PROGRESS lines");
 }
 
+/// What was typed of the options that change a picture: all but those that do not.
+std::string picture_options(const CLI::App& app) {
+    std::string text;
+    for (const CLI::Option* option : app.get_options()) {
+        if (option->count() == 0 || changes_no_picture(option->get_name())) continue;
+        for (const std::string& value : option->results()) text += option->get_name() + "=" + value + "\n";
+    }
+    return text;
+}
+
 /// "-o ''" is a script's empty variable, not a wish for the default.
 void check_values(const CLI::App& app) {
     for (const CLI::Option* option : app.get_options()) {
@@ -210,19 +219,6 @@ void check_values(const CLI::App& app) {
             if (value.empty()) fail(option->get_name(), "the value is empty");
         }
     }
-}
-
-/// Vectors may start with a minus: "--eye -1,2,3" becomes "--eye=-1,2,3" before it is parsed.
-std::vector<std::string> join_vectors(int argc, char** argv) {
-    std::vector<std::string> arguments;
-    for (int i = 1; i < argc; ++i) {
-        std::string argument = argv[i];
-        const bool takes_vector =
-            argument == "--eye" || argument == "--target" || argument == "--up" || argument == "--shutter";
-        if (takes_vector && i + 1 < argc) argument += std::string("=") + argv[++i];
-        arguments.push_back(std::move(argument));
-    }
-    return arguments;
 }
 
 bool is_command(const CLI::App& app, const std::string& argument) {
@@ -373,7 +369,6 @@ void fill_render_options(const Texts& t, Arguments& a) {
     a.output = t.output;
     if (!t.layers.empty()) a.layers = layer_set(t.layers);
     a.names_layers = !t.layers.empty();
-    if (!t.frames.empty()) fail_version("--frames");
     if (!t.crop.empty()) a.crop = integers<4>("--crop", t.crop, ',', "X0,Y0,X1,Y1 in pixels");
     if (!t.bits.empty()) {
         a.bits = integer("--bits", t.bits, 8, 16);
@@ -396,18 +391,8 @@ void fill_render_options(const Texts& t, Arguments& a) {
     a.finds_all = t.find == "all";
 }
 
-/// Names, each once, in the order given.
-std::vector<std::string> method_names(std::string_view text) {
-    std::vector<std::string> names;
-    for (const std::string_view part : split(text, ',')) {
-        const std::string name(part);
-        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    }
-    return names;
-}
-
 void fill_compare_options(const Texts& t, Arguments& a) {
-    if (!t.methods.empty()) a.methods = method_names(t.methods);
+    if (!t.methods.empty()) a.methods = words(t.methods);
     if (!t.compare_frames.empty()) a.frames = integer("--frames", t.compare_frames, 2, 1024);
 }
 
@@ -423,7 +408,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     add_paper_options(*render, t);
     add_method_option(*render, t);
     add_render_options(*render, t);
-    add_blur_options(*render, t);
+    add_frame_options(*render, t);
     CLI::App* const info = app.add_subcommand("info", "say what is in a scene or a model");
     add_input_options(*info, t);
     info->add_flag("--json", t.json, "as JSON");
@@ -450,7 +435,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         "DIR/report.html, one page with tables, plots and a viewer. docs/compare.md says what is measured.\n"
         "Example: burin compare scenes/engine.toml -o comparison --size 960x540 --methods patel,gbuffer");
 
-    std::vector<std::string> arguments = join_vectors(argc, argv);
+    std::vector<std::string> arguments = join_negative_values(argc, argv);
     if (arguments.empty()) {
         std::fputs(app.help().c_str(), stderr);
         throw UsageError("give a command, for example: burin render model.obj -o lines.png");
@@ -502,7 +487,8 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         fill_render_options(t, a);
         fill_page_options(t.page, a);
         fill_vector_options(t.vector, a);
-        fill_blur_options(t.blur, a);
+        fill_frame_options(t.frames, a);
+        if (*render) a.picture_options = picture_options(*render);
         if (*compare) fill_compare_options(t, a);
         if (*explain) a.pixel = integers<2>("--pixel", t.pixel, ',', "X,Y");
     }

@@ -74,6 +74,12 @@ struct Arguments {
     int repeat = 0;
     std::vector<std::string> methods;  ///< compare: names, in order; empty: all
     int frames = 0;                    ///< compare: how many the camera moves through
+    std::vector<double> frame_list;    ///< render: --frames; empty: not given
+    std::optional<double> fps;
+    std::optional<int> turntable_frames;
+    bool skips_existing = false, keeps_going = false;
+    /// All options of the command line that change the picture, as they were typed.
+    std::string picture_options;
     std::string stats;
     bool json = false;
     bool strict = false;  ///< refuse what a reader would leave out of a model with a note

@@ -6,6 +6,15 @@ namespace burin {
 
 using namespace option_values;
 
+std::array<BlurOption, 4> blur_options(BlurTexts& t) {
+    return {{{"--shutter", &t.shutter,
+              "motion blur: when the shutter opens and closes, in frames relative to the frame: -0.25,0.25"},
+             {"--blur-samples", &t.samples,
+              "sub-frames of a blurred picture: auto (default), as many as it needs, or 1 to 4096; 1: no blur"},
+             {"--lens", &t.lens, "depth of field: radius of the lens, in world units"},
+             {"--focus", &t.focus, "distance in focus, in world units (default: that of the target)"}}};
+}
+
 void fill_blur_options(const BlurTexts& t, Arguments& a) {
     if (!t.shutter.empty()) {
         const auto parts = split(t.shutter, ',');

@@ -118,7 +118,7 @@ void run_compare(const Arguments& a) {
     Progress progress(a.alf_progress ? ProgressStyle::alf : (shows_bar ? ProgressStyle::bar : ProgressStyle::none));
     const Stopwatch total;
     const std::vector<const Method*> chosen = chosen_methods(a);
-    Scene scene = load_input(a, files_in(a.output));
+    Scene scene = load_scene_of(a, files_in(a.output));
     if (scene.sheet) throw UsageError("--style: burin compare draws no style sheets; remove the style sheet");
     draw_what_all_can(scene, a.quiet);
     View view;

@@ -164,7 +164,7 @@ void print_info(const Scene& scene, const std::string& input, const Totals& t) {
 }  // namespace
 
 void run_info(const Arguments& a) {
-    const Scene scene = load_input(a);
+    const Scene scene = load_scene_of(a);
     const Totals totals = count(scene);
     if (a.json) {
         std::fputs(info_json(scene, a.input, totals).c_str(), stdout);

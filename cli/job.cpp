@@ -20,7 +20,7 @@ namespace {
 
 bool is_scene_file(const std::string& path) { return lower_extension(path) == ".toml"; }
 
-SceneDescription describe_input(const Arguments& a) {
+SceneDescription read_description(const Arguments& a) {
     if (is_scene_file(a.input)) return read_scene_file(a.input, a.overrides, a.style);
     if (is_model_file(a.input)) return bare_model_scene(a.input, a.overrides, a.style);
     const bool is_stdin = a.input == "-" || a.input == "/dev/stdin";
@@ -31,13 +31,13 @@ SceneDescription describe_input(const Arguments& a) {
                      kModelExtensions + " models");
 }
 
-const CameraSettings& chosen_camera(const Scene& scene, const std::string& name) {
-    if (name.empty()) return scene.cameras.front();
-    const auto it = std::find_if(scene.cameras.begin(), scene.cameras.end(),
-                                 [&](const CameraSettings& c) { return c.name == name; });
-    if (it != scene.cameras.end()) return *it;
+const CameraSettings& chosen_camera(const std::vector<CameraSettings>& cameras, const std::string& name) {
+    if (name.empty()) return cameras.front();
+    const auto it =
+        std::find_if(cameras.begin(), cameras.end(), [&](const CameraSettings& c) { return c.name == name; });
+    if (it != cameras.end()) return *it;
     std::string known;
-    for (const CameraSettings& c : scene.cameras) {
+    for (const CameraSettings& c : cameras) {
         if (!c.name.empty()) known += (known.empty() ? "" : ", ") + c.name;
     }
     throw UsageError("--camera: there is no camera '" + printable(name) + "'; " +
@@ -47,8 +47,8 @@ const CameraSettings& chosen_camera(const Scene& scene, const std::string& name)
 bool changes_view(const Arguments& a) { return a.eye || a.target || a.up || a.fov_deg || a.ortho_height; }
 
 /// The scene's camera; what the command line says about the view replaces it.
-CameraSettings viewing_camera(const Scene& scene, const Arguments& a) {
-    CameraSettings camera = chosen_camera(scene, a.camera);
+CameraSettings viewing_camera(const std::vector<CameraSettings>& cameras, const Arguments& a) {
+    CameraSettings camera = chosen_camera(cameras, a.camera);
     if (!changes_view(a)) return camera;
     if (camera.to_world) camera = CameraSettings{};
     if (a.eye) {
@@ -69,14 +69,15 @@ CameraSettings viewing_camera(const Scene& scene, const Arguments& a) {
 }
 
 /// That camera with the area of the paper that the view fills, and the height that its scale says.
-CameraSettings camera_settings(const Scene& scene, const Arguments& a) {
-    CameraSettings camera = viewing_camera(scene, a);
+CameraSettings camera_settings(const std::vector<CameraSettings>& cameras, const PictureSettings& picture,
+                               const Arguments& a) {
+    CameraSettings camera = viewing_camera(cameras, a);
     set_lens(a, camera);
-    const PaperSettings& paper = scene.picture.paper;
+    const PaperSettings& paper = picture.paper;
     if (paper.scale && a.ortho_height)
         throw UsageError("--ortho: cannot stand beside picture.scale, which says the same; remove one");
     try {
-        see_on_paper(scene.picture, camera);
+        see_on_paper(picture, camera);
     } catch (const InputError& error) {
         if (a.scale) throw UsageError("--scale: " + std::string(error.what()));
         throw InputError(a.input + ": [picture] scale: " + error.what());
@@ -127,11 +128,11 @@ void set_picture_size(const Arguments& a, SceneDescription& scene) {
 }
 
 /// Notes a scene that does not fit on the paper at the scale that is wanted.
-void note_if_cut_off(const Scene& scene, CameraSettings camera, double aspect) {
+void note_if_cut_off(const Scene& scene, const PointSource& points, CameraSettings camera, double aspect) {
     if (!scene.picture.paper.scale || camera.to_world || camera.eye) return;
     const double height = *camera.height;
     camera.height.reset();
-    const double needed = camera.fit * resolve_camera(camera, scene_points(scene), aspect).height;
+    const double needed = camera.fit * resolve_camera(camera, points, aspect).height;
     if (needed <= height) return;
     const double fitting = *scene.picture.paper.scale * height / needed;
     std::fprintf(stderr, "burin: note: at %s the view reaches beyond the %s; %s would fit\n",
@@ -145,25 +146,19 @@ bool names_sheet(std::string_view message, const StyleSheet& sheet) {
     return message.starts_with(sheet.sets.front().where.file + ":");
 }
 
-PixelRect crop_of(const Arguments& a, int width, int height) {
-    if (!a.crop) return {0, 0, width, height};
-    const auto [x0, y0, x1, y1] = *a.crop;
-    if (!(0 <= x0 && x0 < x1 && x1 <= width && 0 <= y0 && y0 < y1 && y1 <= height)) {
-        throw UsageError("--crop: must lie within the image of " + std::to_string(width) + "x" +
-                         std::to_string(height) + " pixels, with X0 < X1 and Y0 < Y1");
-    }
-    return {x0, y0, x1, y1};
-}
-
 }  // namespace
 
-Scene load_input(const Arguments& a, const std::vector<OutputFile>& outputs) {
-    refuse_to_overwrite(outputs, {a.input});
-    SceneDescription description = describe_input(a);
+DescribedInput describe_input(const Arguments& a) {
+    DescribedInput input{read_description(a), {}};
+    SceneDescription& description = input.description;
     set_picture_size(a, description);
-    std::vector<std::string> files;
+    if (a.fps) description.frame.fps = *a.fps;
+    if (a.turntable_frames) {
+        if (!description.turntable) description.turntable.emplace();
+        description.turntable->frames = *a.turntable_frames;
+    }
     if (description.sheet) {
-        if (!description.sheet->file.empty()) files.push_back(description.sheet->file);
+        if (!description.sheet->file.empty()) input.files.push_back(description.sheet->file);
         SheetContext context;
         context.height_px = description.picture.height;
         context.px_per_mm = description.picture.dpi / 25.4;
@@ -176,15 +171,23 @@ Scene load_input(const Arguments& a, const std::vector<OutputFile>& outputs) {
             wished.line_width_px = kThickMm * context.px_per_mm;
         use_sheet(description, sheet_as_wished(*description.sheet, wished, context));
     }
-    const std::vector<std::string> unread = description.unread_line_keys;
     for (const ObjectDescription& object : description.objects) {
-        if (!object.file.empty()) files.push_back(object.file);
+        if (!object.file.empty()) input.files.push_back(object.file);
     }
-    refuse_to_overwrite(outputs, files);
-    files.clear();
-    Scene scene = load_scene(std::move(description),
-                             {.threads = a.threads, .strict = a.strict, .budget = a.model_budget}, &files);
-    refuse_to_overwrite(outputs, files);
+    return input;
+}
+
+LoadedInput load_input(DescribedInput input, const Arguments& a, const std::vector<OutputFile>& outputs) {
+    SceneDescription& description = input.description;
+    const std::vector<std::string> unread = description.unread_line_keys;
+    LoadedInput loaded{{}, {}, description.frame_range, description.turntable, {}, description.hash};
+    if (description.sheet && !description.sheet->file.empty()) loaded.files.push_back(description.sheet->file);
+    refuse_to_overwrite(outputs, input.files);
+    AnimatedScene animated = load_animated_scene(
+        std::move(description), {.threads = a.threads, .strict = a.strict, .budget = a.model_budget}, &loaded.files);
+    refuse_to_overwrite(outputs, loaded.files);
+    loaded.animation = std::move(animated.animation);
+    Scene& scene = loaded.scene = std::move(animated.scene);
     if (!a.quiet && a.command != Command::info) {  // which prints them with the rest
         for (const std::string& note : scene.notes)
             std::fprintf(stderr, "burin: note: %s\n", printable(note, 4000).c_str());
@@ -212,32 +215,85 @@ Scene load_input(const Arguments& a, const std::vector<OutputFile>& outputs) {
         scene.finds_all = true;
         scene.lines.classes = LineClassSet::all();
     }
-    if (a.frame) scene.frame.number = *a.frame;
-    return scene;
+    return loaded;
 }
 
-Camera camera_of(const Scene& scene, const Arguments& a) {
-    const CameraSettings settings = camera_settings(scene, a);
-    const std::string place = settings.where.line > 0 ? to_string(settings.where) : a.input;
-    const double aspect = static_cast<double>(scene.picture.width) / scene.picture.height;
+double still_frame(const Arguments& a, const std::vector<double>& range, const std::optional<Turntable>& turntable) {
+    if (a.frame) return *a.frame;
+    if (!range.empty()) return range.front();
+    return turntable ? turntable->first : 0;
+}
+
+Scene load_scene_of(const Arguments& a, const std::vector<OutputFile>& outputs) {
+    refuse_to_overwrite(outputs, {a.input});
+    LoadedInput input = load_input(describe_input(a), a, outputs);
+    const double frame = still_frame(a, input.frame_range, input.turntable);
+    const bool is_at_rest = !a.frame && input.frame_range.empty();
+    if (input.animation.moves() && !is_at_rest) {
+        apply(input.animation.at(frame), input.scene);
+    } else {
+        input.scene.frame.number = frame;
+    }
+    return std::move(input.scene);
+}
+
+namespace {
+
+/// Calls resolve() for a camera; what it throws gets the camera's place, or the options that say it.
+template <typename Resolve>
+auto naming_camera(const CameraSettings& settings, const Arguments& a, const Resolve& resolve) {
     try {
-        if (!a.quiet) note_if_cut_off(scene, settings, aspect);
-        return resolve_camera(settings, scene_points(scene), aspect);
+        return resolve();
     } catch (const InputError& error) {
         if (changes_view(a)) throw UsageError("--eye, --target, --up, --fov, --ortho: " + std::string(error.what()));
-        throw InputError(place + ": " + error.what());
+        throw InputError((settings.where.line > 0 ? to_string(settings.where) : a.input) + ": " + error.what());
     }
 }
 
-std::vector<ViewOnSheet> views_of(const Scene& scene, const Arguments& a) {
+FittedCamera fitted_camera(const Scene& scene, const std::vector<CameraSettings>& first, const PointSource& points,
+                           const std::optional<Turntable>& turntable, const Arguments& a) {
+    const CameraSettings settings = camera_settings(first, scene.picture, a);
+    const double aspect = static_cast<double>(scene.picture.width) / scene.picture.height;
+    return naming_camera(settings, a, [&] {
+        if (!a.quiet) note_if_cut_off(scene, points, settings, aspect);
+        return FittedCamera(settings, points, aspect, turntable);
+    });
+}
+
+}  // namespace
+
+JobCamera::JobCamera(const Scene& scene, const std::vector<CameraSettings>& first, const PointSource& points,
+                     const std::optional<Turntable>& turntable, const Arguments& a)
+    : arguments_(a), fitted_(fitted_camera(scene, first, points, turntable, a)) {}
+
+Camera JobCamera::at(const std::vector<CameraSettings>& cameras, const PictureSettings& picture, double frame) const {
+    const CameraSettings settings = camera_settings(cameras, picture, arguments_);
+    return naming_camera(settings, arguments_, [&] { return fitted_.at(settings, frame); });
+}
+
+Camera camera_of(const Scene& scene, const Arguments& a) {
+    return JobCamera(scene, scene.cameras, scene_points(scene), std::nullopt, a).at(scene);
+}
+
+std::vector<ViewOnSheet> views_of(const Scene& scene, const PointSource& points, const Arguments& a) {
     if (a.views.empty()) return {};
     const glm::dvec3 up = a.up.value_or(scene.cameras.front().up.value_or(glm::dvec3(0, 1, 0)));
     if (!(glm::length(up) > 0)) throw UsageError("--up: the vector is zero; give a direction");
     try {
-        return views_on_sheet(a.views, a.view_projection, scene.picture, up, scene_points(scene));
+        return views_on_sheet(a.views, a.view_projection, scene.picture, up, points);
     } catch (const InputError& error) {
         throw InputError(a.input + ": " + error.what());
     }
+}
+
+PixelRect crop_of(const Arguments& a, int width, int height) {
+    if (!a.crop) return {0, 0, width, height};
+    const auto [x0, y0, x1, y1] = *a.crop;
+    if (!(0 <= x0 && x0 < x1 && x1 <= width && 0 <= y0 && y0 < y1 && y1 <= height)) {
+        throw UsageError("--crop: must lie within the image of " + std::to_string(width) + "x" +
+                         std::to_string(height) + " pixels, with X0 < X1 and Y0 < Y1");
+    }
+    return {x0, y0, x1, y1};
 }
 
 Frame frame_of(const Scene& scene, const Camera& camera, const Arguments& a, const PreparedScene* prepared) {

@@ -31,6 +31,31 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     }
 }
 
+std::vector<std::string> join_negative_values(int argc, char** argv) {
+    std::vector<std::string> arguments;
+    for (int i = 1; i < argc; ++i) {
+        std::string argument = argv[i];
+        const std::string_view next = i + 1 < argc ? argv[i + 1] : "";
+        const bool takes_vector =
+            argument == "--eye" || argument == "--target" || argument == "--up" || argument == "--shutter";
+        const bool takes_frames = argument == "-f" || argument == "--frames";
+        const bool is_negative = next.size() > 1 && next[0] == '-' && next[1] >= '0' && next[1] <= '9';
+        if (takes_frames && is_negative) argument = "--frames";
+        if ((takes_vector && i + 1 < argc) || (takes_frames && is_negative)) argument += std::string("=") + argv[++i];
+        arguments.push_back(std::move(argument));
+    }
+    return arguments;
+}
+
+std::vector<std::string> words(std::string_view text) {
+    std::vector<std::string> all;
+    for (const std::string_view part : split(text, ',')) {
+        const std::string word(part);
+        if (std::find(all.begin(), all.end(), word) == all.end()) all.push_back(word);
+    }
+    return all;
+}
+
 bool to_integer(std::string_view text, int& value) {
     std::int64_t wide = 0;
     const char* const end = text.data() + text.size();

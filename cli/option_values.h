@@ -18,6 +18,10 @@ namespace burin::option_values {
 
 [[noreturn]] void fail(const std::string& option, const std::string& message);
 
+/// Values may begin with a minus: "--eye -1,2,3" becomes "--eye=-1,2,3", and "-f -5:5" is "--frames=-5:5".
+std::vector<std::string> join_negative_values(int argc, char** argv);
+/// Words, each once, in the order given.
+std::vector<std::string> words(std::string_view text);
 std::vector<std::string_view> split(std::string_view text, char separator);
 bool to_integer(std::string_view text, int& value);
 

@@ -10,19 +10,6 @@
 
 namespace burin {
 
-bool has_frame_pattern(const std::string& name) {
-    if (name.find("##") != std::string::npos) return true;
-    const auto is_digit = [&](std::size_t i) { return i < name.size() && name[i] >= '0' && name[i] <= '9'; };
-    for (std::size_t i = 0; i < name.size(); ++i) {
-        if (name.compare(i, 2, "$F") == 0 && is_digit(i + 2)) return true;
-        if (name[i] != '%' || !is_digit(i + 1)) continue;
-        std::size_t end = i + 1;
-        while (is_digit(end)) ++end;
-        if (end < name.size() && name[end] == 'd') return true;
-    }
-    return false;
-}
-
 bool is_one_file(const std::string& a, const std::string& b) {
     namespace fs = std::filesystem;
     std::error_code error;

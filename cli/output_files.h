@@ -11,10 +11,6 @@ struct OutputFile {
     std::string path;
 };
 
-/// Whether a part of a file's name stands for a frame's number: "##", "%04d" or "$F4". A single #
-/// is a letter like others.
-bool has_frame_pattern(const std::string& name);
-
 /// Whether two paths lead to one file, whatever links are between, or would if it existed.
 bool is_one_file(const std::string& a, const std::string& b);
 

@@ -8,6 +8,7 @@
 #include "base/lower_extension.h"
 #include "base/parallel.h"
 #include "cli/output_files.h"
+#include "scene/animation/frame_pattern.h"
 
 namespace burin {
 
@@ -27,9 +28,8 @@ OutputOptions output_options(const Arguments& a) {
             "--output: " + (suffix.empty() ? "the name has no suffix" : "unknown kind of image '" + suffix + "'") +
             "; burin writes " + suffixes_of_formats());
     }
-    if (has_frame_pattern(std::filesystem::path(a.output).filename().string())) {
-        throw UsageError("--output: a pattern for frames needs --frames, which is not in this version");
-    }
+    if (a.command != Command::render && FramePattern::find(options.path, FramePattern::SingleHash::letter))
+        throw UsageError("--output: a pattern for frames is for burin render --frames");
     if (writes_stats_file(a) && is_one_file(a.stats, options.path)) {
         throw UsageError("--stats: would overwrite " + options.path + "; give another name");
     }

@@ -34,7 +34,8 @@ Scene scene_of(const LinesFile& file, const Arguments& a) {
     scene.picture.width = file.lines.width_px;
     scene.picture.height = file.lines.height_px;
     scene.picture.dpi = file.lines.dpi;
-    scene.frame = {file.lines.frame, file.lines.fps};
+    scene.frame.number = file.lines.frame;
+    scene.frame.fps = file.lines.fps;
     scene.picture.transparent = a.background == "transparent";
     if (!a.background.empty() && !scene.picture.transparent) scene.picture.background = color_from_hex(a.background);
     for (const ObjectOfLines& object : file.lines.objects) {

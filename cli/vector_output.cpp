@@ -54,6 +54,7 @@ void write_vector(const VectorDrawing& drawing, const Arguments& a, const Output
     options.names_paths = a.names_paths;
     options.is_plain_pdf = a.page == PagePreset::patent;
     options.tolerance_px = a.tolerance_px;
+    options.fingerprint = output.fingerprint;
     std::vector<std::string> notes;
     const std::string text = vector_file_of(drawing, output.format, options, notes);
     if (!a.quiet) {

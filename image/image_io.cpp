@@ -111,8 +111,10 @@ void write_by_module(ByteSink& file, const std::string& name, const std::string&
     auto* const write = module_function<decltype(burin_oiio_write)>("burin_oiio_write");
     DisplaySink target{file, nullptr};
     const BurinOiioSink sink{&target, DisplaySink::write, DisplaySink::go_on};
+    const std::string description =
+        image.fingerprint.empty() ? "" : std::string(kFingerprintName) + " " + image.fingerprint;
     const char* const failure = write(("picture" + extension).c_str(), image.width, image.height, image.channels, bits,
-                                      image.pixels.data(), &sink);
+                                      image.pixels.data(), description.c_str(), &sink);
     if (target.stopped) std::rethrow_exception(target.stopped);
     if (failure != nullptr) throw InputError(name + ": cannot write: " + one_line(failure));
 }

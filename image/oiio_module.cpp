@@ -45,7 +45,7 @@ class MemoryProxy : public OIIO::Filesystem::IOProxy {
 }  // namespace
 
 const char* burin_oiio_write(const char* name, int width, int height, int channels, int bits,
-                             const unsigned short* pixels, const BurinOiioSink* sink) {
+                             const unsigned short* pixels, const char* description, const BurinOiioSink* sink) {
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
     if (!output) return failure(OIIO::geterror());
     if (!output->supports("ioproxy")) return failure("this format cannot be written");
@@ -56,6 +56,7 @@ const char* burin_oiio_write(const char* name, int width, int height, int channe
     spec.attribute("tiff:write_exif", 0);
     spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("Software", "burin");
+    if (description[0] != '\0') spec.attribute("ImageDescription", description);
     // Without a DateTime the time of writing goes into a TIFF; one that is no text is left out.
     spec.attribute("DateTime", 0);
     spec.attribute("compression", "zip");

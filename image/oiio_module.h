@@ -17,9 +17,9 @@ struct BurinOiioSink {
 /// Writes width x height pixels of `channels` (3 or 4) 16-bit values per pixel, sRGB-encoded, alpha
 /// not multiplied in, to `sink`, with `bits` (8 or 16) per value. The extension of `name` says the
 /// format (PNG or TIFF). Returns nullptr, or what went wrong (valid until the next call in this
-/// thread).
+/// thread). `description`: a text for the file; empty: none.
 const char* burin_oiio_write(const char* name, int width, int height, int channels, int bits,
-                             const unsigned short* pixels, const BurinOiioSink* sink);
+                             const unsigned short* pixels, const char* description, const BurinOiioSink* sink);
 
 /// Reads `path` as 16-bit values, `channels` of them per pixel. Returns nullptr or what went wrong.
 /// The caller gives a function that allocates room for the pixels.

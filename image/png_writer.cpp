@@ -47,12 +47,16 @@ bool write_header(png_structp png, png_infop info, const DisplayImage& image, in
                  image.channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
-    char key[] = "Software", value[] = "burin";
-    png_text text{};
-    text.compression = PNG_TEXT_COMPRESSION_NONE;
-    text.key = key;
-    text.text = value;
-    png_set_text(png, info, &text, 1);
+    char keys[2][20] = {"Software", ""}, values[2][20] = {"burin", ""};
+    std::snprintf(keys[1], sizeof keys[1], "%s", kFingerprintName);
+    std::snprintf(values[1], sizeof values[1], "%s", image.fingerprint.c_str());
+    png_text texts[2] = {};
+    for (int i = 0; i < 2; ++i) {
+        texts[i].compression = PNG_TEXT_COMPRESSION_NONE;
+        texts[i].key = keys[i];
+        texts[i].text = values[i];
+    }
+    png_set_text(png, info, texts, image.fingerprint.empty() ? 1 : 2);
     png_write_info(png, info);
     return true;
 }

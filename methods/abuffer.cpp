@@ -1,6 +1,8 @@
 #include "methods/abuffer.h"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "abuffer/edges/intersecting_pairs.h"
@@ -33,20 +35,30 @@ Frame with_fading_creases(Frame frame) {
 }  // namespace
 
 PreparedScene prepare_for_abuffer(const Scene& scene, int threads, bool saves_memory) {
-    const LineCriteria criteria = fading_criteria_of(scene.lines);
     PreparedScene prepared;
+    prepare_changes_for_abuffer(scene, {}, threads, saves_memory, prepared);
+    return prepared;
+}
+
+void prepare_changes_for_abuffer(const Scene& scene, const std::vector<std::size_t>& changed_meshes, int threads,
+                                 bool saves_memory, PreparedScene& prepared) {
+    const LineCriteria criteria = fading_criteria_of(scene.lines);
+    std::vector<std::size_t> meshes;
+    for (const std::size_t i : changed_meshes) {
+        if (i < std::min(prepared.sharp_edges.size(), scene.meshes.size())) meshes.push_back(i);
+    }
+    for (std::size_t i = prepared.sharp_edges.size(); i < scene.meshes.size(); ++i) meshes.push_back(i);
     prepared.sharp_edges.resize(scene.meshes.size());
+    if (!meshes.empty()) prepared.curvatures = std::make_shared<SceneCurvatures>();
     // Threads share a few large meshes, or take one each of many.
-    const std::size_t count = scene.meshes.size();
-    const bool has_many = count >= 4 * static_cast<std::size_t>(resolve_thread_count(threads));
-    parallel_for(count, has_many ? threads : 1, [&](std::size_t i, int) {
-        prepared.sharp_edges[i] = find_sharp_edges(scene.meshes[i], criteria, has_many ? 1 : threads);
+    const bool has_many = meshes.size() >= 4 * static_cast<std::size_t>(resolve_thread_count(threads));
+    parallel_for(meshes.size(), has_many ? threads : 1, [&](std::size_t i, int) {
+        prepared.sharp_edges[meshes[i]] = find_sharp_edges(scene.meshes[meshes[i]], criteria, has_many ? 1 : threads);
     });
     const bool behind = draws_hidden_lines(scene) || has_transparent_surfaces(scene);
     if (!saves_memory && behind && IntersectionLines::are_wanted(scene.lines.classes)) {
         prepared.intersecting_pairs = find_intersecting_pairs(scene, best_kernels(), threads);
     }
-    return prepared;
 }
 
 /// Bands are not finished early where there are hidden lines, for these are drawn below visible ones.

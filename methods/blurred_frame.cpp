@@ -49,7 +49,7 @@ std::vector<PixelRect> bands_of(const Film& film, const RunOptions& options) {
 class BlurredFrame {
   public:
     BlurredFrame(const Method& method, const Blur& blur, const MomentAt& moment_at, int width, int height,
-                 const RunOptions& options, Film& film, const std::function<void()>& next)
+                 const RunOptions& options, Film& film)
         : method_(method),
           blur_(blur),
           moment_at_(moment_at),
@@ -57,15 +57,15 @@ class BlurredFrame {
           height_(height),
           options_(options),
           film_(film),
-          next_(next),
           layers_(layers_with_mean(film.layers())) {
+        progress_ = std::exchange(options_.progress, nullptr);
         options_.finished_band = nullptr;
         options_.found_lines = nullptr;
     }
 
     RenderStats draw(int count) {
+        if (progress_ != nullptr) progress_->begin("rendering", sub_frames_drawn(count, options_, film_));
         if (!all_have_mean(film_.channels())) {
-            if (next_) next_();
             draw_frame(frame_of(middle_sub_frame(shutter_of(blur_)), film_.crop()), film_, options_);
         }
         const std::vector<SubFrame> subs = sub_frames(shutter_of(blur_), blur_.has_lens, count);
@@ -82,10 +82,10 @@ class BlurredFrame {
 
     void draw_frame(const Frame& frame, Film& film, const RunOptions& options) {
         add(method_.render(frame, options, film), stats_);
+        if (progress_ != nullptr) progress_->advance();
     }
 
     void draw_mean(const std::vector<SubFrame>& subs, PixelRect rows) {
-        if (next_) next_();
         std::optional<Frame> frame = frame_of(subs.front(), rows);
         const LineClassSet classes = frame->criteria.classes;
         const bool in_bands = method_.finishes_in_bands != nullptr && method_.finishes_in_bands(*frame);
@@ -105,7 +105,6 @@ class BlurredFrame {
         }
         for (std::size_t i = 0; i < subs.size(); ++i) {
             if (i > 0) {
-                if (next_) next_();
                 frame.reset();  // it borrows the moment before
                 frame = frame_of(subs[i], rows);
             }
@@ -137,7 +136,7 @@ class BlurredFrame {
     int width_, height_;
     RunOptions options_;
     Film& film_;
-    const std::function<void()>& next_;
+    Progress* progress_;
     LayerSet layers_;
     RenderStats stats_;
 };
@@ -165,8 +164,8 @@ int sub_frame_count(const Blur& blur, const MomentAt& moment_at, int width, int 
 }
 
 RenderStats render_blurred(const Method& method, const Blur& blur, int count, const MomentAt& moment_at, int width,
-                           int height, const RunOptions& options, Film& film, const std::function<void()>& next) {
-    return BlurredFrame(method, blur, moment_at, width, height, options, film, next).draw(count);
+                           int height, const RunOptions& options, Film& film) {
+    return BlurredFrame(method, blur, moment_at, width, height, options, film).draw(count);
 }
 
 std::size_t sub_frames_drawn(int count, const RunOptions& options, const Film& film) {

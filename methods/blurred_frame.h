@@ -41,10 +41,9 @@ int sub_frame_count(const Blur& blur, const MomentAt& moment_at, int width, int 
 /// Draws a frame as the mean of `count` sub-frames, 2 or more. What has no mean (depth, normals, ids) is that of the
 /// middle of shutter and lens. `film` lies in memory as a whole; `width` and `height` are those of the whole picture.
 /// Sums take 4 bytes per pixel and channel that has a mean; under a cap for memory they are made for some rows after
-/// the other. `next`: is called before each sub-frame, for progress; there are sub_frames_drawn() of them.
+/// the other. Progress counts sub-frames.
 RenderStats render_blurred(const Method& method, const Blur& blur, int count, const MomentAt& moment_at, int width,
-                           int height, const RunOptions& options, Film& film,
-                           const std::function<void()>& next = nullptr);
+                           int height, const RunOptions& options, Film& film);
 
 /// How many pictures render_blurred() draws.
 std::size_t sub_frames_drawn(int count, const RunOptions& options, const Film& film);

@@ -138,6 +138,7 @@ class DxfWriter {
     }
 
     void add_header() {
+        if (!options_.fingerprint.empty()) group(999, "burin/fingerprint " + options_.fingerprint);
         const glm::dvec2 size = area_.size_mm();
         group(0, "SECTION");
         group(2, "HEADER");

@@ -9,6 +9,7 @@ namespace burin {
 
 struct DxfOptions {
     double tolerance_px = 0.02;  ///< how far lines may be from curves
+    std::string fingerprint = {};
 };
 
 /// Writes a DXF file of release 12 (ASCII): polylines in mm, y upwards, on layers VISIBLE_CREASE, HIDDEN_SILHOUETTE and

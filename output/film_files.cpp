@@ -7,6 +7,7 @@ ExrOptions exr_options(const OutputOptions& options) {
     ExrOptions exr;
     exr.threads = options.threads;
     exr.texts = {{"software", "burin 0.1.0"}};
+    if (!options.fingerprint.empty()) exr.texts.emplace_back(kFingerprintName, options.fingerprint);
     return exr;
 }
 
@@ -20,7 +21,9 @@ DisplayImage displayed(const PictureSettings& picture, const Image& image) {
 
 void write_output(const Frame& frame, const Film& film, const OutputOptions& options) {
     if (options.format == OutputFormat::exr) return write_exr(options.path, film.image(), exr_options(options));
-    write_display_image(options.path, displayed(frame.scene->picture, film.image()), options.bits);
+    DisplayImage image = displayed(frame.scene->picture, film.image());
+    image.fingerprint = options.fingerprint;
+    write_display_image(options.path, image, options.bits);
 }
 
 void write_output(ByteSink& file, const PictureSettings& picture, const Image& image, const OutputOptions& options) {

@@ -17,6 +17,8 @@ struct OutputOptions {
     OutputFormat format = OutputFormat::exr;
     int bits = 8;  ///< PNG and TIFF: 8 or 16
     int threads = 1;
+    std::string fingerprint = {};  ///< of what the picture is made from; empty: the file has none
+    FrameSettings frame = {};      ///< which frame it is
 };
 
 /// Writes the film to its file (docs/conventions.md lists the layers). Throws InputError.

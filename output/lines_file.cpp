@@ -14,6 +14,7 @@
 #include "image/half.h"
 #include "mesh/gltf_json.h"
 #include "output/lines_format.h"
+#include "scene/animation/frame_list.h"
 
 namespace burin {
 namespace {
@@ -204,7 +205,7 @@ std::map<std::string, std::string> metadata_of(const FoundLines& lines, const Ke
     data["has_normals"] = lines.has_normals ? "1" : "0";
     data["has_beyond"] = lines.has_beyond ? "1" : "0";
     data["has_chains"] = lines.has_chains ? "1" : "0";
-    data["frame"] = std::to_string(lines.frame);
+    data["frame"] = text_of_frame(lines.frame);
     const auto number = [](double value) { return nlohmann::json(value).dump(); };
     data["fps"] = number(lines.fps);
     data["dpi"] = number(lines.dpi);
@@ -239,12 +240,15 @@ KeptSurface kept_surface(const Film& film) {
     return surface;
 }
 
-void write_lines_file(ByteSink& file, const FoundLines& lines, const KeptSurface& surface) {
+void write_lines_file(ByteSink& file, const FoundLines& lines, const KeptSurface& surface,
+                      const std::string& fingerprint) {
     ArrayWriter out;
     add_pieces(lines, out);
     add_chains(lines, out);
     add_picture(lines, surface, out);
-    out.write(file, metadata_of(lines, surface));
+    std::map<std::string, std::string> metadata = metadata_of(lines, surface);
+    if (!fingerprint.empty()) metadata["fingerprint"] = fingerprint;
+    out.write(file, metadata);
 }
 
 }  // namespace burin

@@ -29,8 +29,9 @@ struct LinesFile {
     KeptSurface surface;
 };
 
-/// Writes lines. Throws what the sink throws.
-void write_lines_file(ByteSink& file, const FoundLines& lines, const KeptSurface& surface);
+/// Writes lines. Throws what the sink throws. `fingerprint`: of what they were found in; empty: the file has none.
+void write_lines_file(ByteSink& file, const FoundLines& lines, const KeptSurface& surface,
+                      const std::string& fingerprint = {});
 
 /// Reads a file from anywhere: whatever it holds, the lines are whole, or it throws InputError with the file's name and
 /// the array that is wrong.

@@ -13,6 +13,7 @@
 #include "mesh/gltf_json.h"
 #include "output/lines_file.h"
 #include "output/lines_format.h"
+#include "scene/animation/frame_list.h"
 
 namespace burin {
 namespace {
@@ -173,8 +174,8 @@ void read_picture(const ArrayReader& in, const MetadataReader& data, FoundLines&
     lines.has_normals = data.integer("has_normals", 0, 1) == 1;
     lines.has_beyond = data.integer("has_beyond", 0, 1) == 1;
     lines.has_chains = data.integer("has_chains", 0, 1) == 1;
-    lines.frame =
-        static_cast<int>(data.integer("frame", std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
+    lines.frame = data.number("frame");
+    if (!(std::abs(lines.frame) <= kLargestFrame)) in.fail("__metadata__.frame: is out of range");
     lines.fps = data.number("fps");
     lines.dpi = data.number("dpi");
     if (!(lines.fps > 0) || !(lines.dpi > 0)) in.fail("__metadata__: fps and dpi must be greater than 0");

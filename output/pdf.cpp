@@ -140,14 +140,15 @@ class PdfContent {
 };
 
 /// Metadata as XMP has them.
-std::string metadata(int part) {
+std::string metadata(int part, const std::string& fingerprint) {
     return "<?xpacket begin=\"\xEF\xBB\xBF\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?>\n"
            "<x:xmpmeta xmlns:x=\"adobe:ns:meta/\">\n"
            "<rdf:RDF xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\">\n"
            "<rdf:Description rdf:about=\"\" xmlns:pdf=\"http://ns.adobe.com/pdf/1.3/\" "
            "xmlns:pdfaid=\"http://www.aiim.org/pdfa/ns/id/\">\n"
-           "<pdf:Producer>Burin</pdf:Producer>\n<pdfaid:part>" +
-           std::to_string(part) +
+           "<pdf:Producer>Burin</pdf:Producer>\n" +
+           (fingerprint.empty() ? "" : "<pdf:Keywords>burin/fingerprint " + fingerprint + "</pdf:Keywords>\n") +
+           "<pdfaid:part>" + std::to_string(part) +
            "</pdfaid:part>\n<pdfaid:conformance>B</pdfaid:conformance>\n"
            "</rdf:Description>\n</rdf:RDF>\n</x:xmpmeta>\n<?xpacket end=\"w\"?>";
 }
@@ -178,8 +179,8 @@ class PdfWriter {
         file_.set(page, "<< " + entries + " /Contents " + PdfFile::reference(content) + " >>");
         file_.set(pages, "<< /Type /Pages /Kids [" + PdfFile::reference(page) + "] /Count 1 >>");
         const std::size_t profile = file_.add_stream(srgb_profile(), "/N 3", true);
-        const std::size_t xmp =
-            file_.add_stream(metadata(options_.is_plain ? 1 : 2), "/Type /Metadata /Subtype /XML", false);
+        const std::size_t xmp = file_.add_stream(metadata(options_.is_plain ? 1 : 2, options_.fingerprint),
+                                                 "/Type /Metadata /Subtype /XML", false);
         const std::size_t info = file_.add("<< /Producer (Burin) >>");
         std::string catalog = "/Type /Catalog /Pages " + PdfFile::reference(pages) + " /Metadata " +
                               PdfFile::reference(xmp) +

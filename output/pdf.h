@@ -11,6 +11,7 @@ struct PdfOptions {
     /// PDF/A-1b, which patent offices take: version 1.4, without layers, and without transparency, for which colours
     /// are mixed with the paper's. Else PDF/A-2b, version 1.6.
     bool is_plain = false;
+    std::string fingerprint = {};
 };
 
 /// Writes a PDF file of one page: optional content groups for hidden and visible lines, in these those of the drawing's

@@ -88,6 +88,7 @@ class SvgWriter {
         for (const double v : {area.low_px.x, area.low_px.y, area.size_px.x, area.size_px.y})
             out_ += (out_.back() == '"' ? "" : " ") + short_number(v);
         out_ += '"';
+        if (!options_.fingerprint.empty()) out_ += " data-burin-fingerprint=\"" + options_.fingerprint + "\"";
         root_ = defaults();
         if (!drawing_.paths.empty()) {
             const Attributes common = common_of(drawing_.paths);

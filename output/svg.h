@@ -9,6 +9,7 @@ namespace burin {
 
 struct SvgOptions {
     bool has_names = true;  ///< ids and data-* of paths; layers always have them
+    std::string fingerprint = {};
 };
 
 /// Writes an SVG 1.1 file: layers of Inkscape for hidden and visible lines, in them groups, in these paths. Sizes are

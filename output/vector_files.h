@@ -10,9 +10,10 @@ namespace burin {
 
 /// How vector files are written, whatever their format.
 struct VectorFileOptions {
-    bool names_paths = true;     ///< SVG: ids and data-*
-    bool is_plain_pdf = false;   ///< PDF/A-1b
-    double tolerance_px = 0.02;  ///< DXF: how far lines may be from curves
+    bool names_paths = true;       ///< SVG: ids and data-*
+    bool is_plain_pdf = false;     ///< PDF/A-1b
+    double tolerance_px = 0.02;    ///< DXF: how far lines may be from curves
+    std::string fingerprint = {};  ///< of what the drawing is made from; empty: the file has none
 };
 
 /// A drawing as a file of one of the formats that is_vector() names. `notes`: gets what the format cannot say.

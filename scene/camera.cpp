@@ -265,7 +265,7 @@ Camera resolve_camera(const CameraSettings& settings, const PointSource& points,
     if (settings.to_world) {
         Camera camera = from_matrix(settings);
         add_lens(
-            settings, [&] { return center_of(box_of(points)); }, camera);
+            settings, [&] { return settings.target ? *settings.target : center_of(box_of(points)); }, camera);
         return camera;
     }
 

@@ -12,6 +12,7 @@
 #include "base/interrupt.h"
 #include "mesh/model.h"
 #include "mesh/text_scan.h"
+#include "scene/animation/placeable.h"
 #include "scene/missing_attributes.h"
 #include "scene/object_names.h"
 #include "scene/scene_description.h"
@@ -20,15 +21,6 @@
 
 namespace burin {
 namespace {
-
-bool is_finite(const glm::dmat4& m) {
-    for (int c = 0; c < 4; ++c) {
-        for (int r = 0; r < 4; ++r) {
-            if (!(std::abs(m[c][r]) <= 1e60)) return false;
-        }
-    }
-    return true;
-}
 
 /// A model as it arrived in the scene: where its meshes start, and the scene's materials for its own.
 struct LoadedModel {
@@ -63,6 +55,8 @@ class SceneLoader {
         scene_.gbuffer = from_.gbuffer;
         scene_.zbuffer = from_.zbuffer;
         scene_.wire = from_.wire;
+        may_move_ = std::any_of(from_.objects.begin(), from_.objects.end(),
+                                [](const ObjectDescription& object) { return !object.keys.empty(); });
         if (from_.sheet) attribute_readers_.sheet = attributes_named_in(*from_.sheet);
         kept_attributes_ = options.keeps_attributes ? AttributeWish::all() : attribute_readers_.sheet;
         if (from_.surfaces.recipe) {
@@ -73,7 +67,7 @@ class SceneLoader {
             material_numbers_.emplace(from_.materials[i].name, i);
     }
 
-    Scene load() {
+    AnimatedScene load() {
         for (const ObjectDescription& object : from_.objects) {
             if (object.file.empty()) at_place_of(object, [&] { count_shape(object); });
         }
@@ -92,17 +86,25 @@ class SceneLoader {
                 }
             });
         }
-        if (scene_.cameras.empty()) scene_.cameras = std::move(file_cameras_);
+        tell_cameras();
         scene_.camera_is_default = scene_.cameras.empty();
         if (scene_.cameras.empty()) scene_.cameras.emplace_back();
         check_highlights();
         draw_lines_without_polygons(scene_);
         for (std::string& note : notes_on_missing_attributes(scene_, attribute_readers_, attribute_names_))
             scene_.notes.push_back(std::move(note));
-        return std::move(scene_);
+        return {std::move(scene_), std::move(animation_)};
     }
 
   private:
+    void tell_cameras() {
+        animation_.fps = from_.frame.fps;
+        for (std::size_t i = 0; i < from_.camera_keys.size(); ++i)
+            animation_.cameras.push_back({.rest = from_.cameras[i], .keys = from_.camera_keys[i]});
+        if (!scene_.cameras.empty()) return;
+        scene_.cameras = std::move(file_cameras_);
+        animation_.cameras = std::move(moving_file_cameras_);
+    }
     void check_highlights() const {
         const ObjectNames names(scene_.zbuffer.highlight_objects);
         std::set<std::string_view> found;
@@ -201,6 +203,11 @@ class SceneLoader {
             if (c.orthographic) camera.height = c.height;
             camera.to_world = object.to_world * object.instances.front() * c.to_world;
             file_cameras_.push_back(camera);
+            moving_file_cameras_.push_back({.rest = camera,
+                                            .place = {.keys = keys_of(object),
+                                                      .object = object.to_world,
+                                                      .instance = object.instances.front(),
+                                                      .own = c.to_world}});
         }
         return adopt(std::move(model));
     }
@@ -238,6 +245,7 @@ class SceneLoader {
         if (!object.material.empty()) {
             materials = MaterialList::all_alike(materials.size(), material_numbers_.find(object.material)->second);
         }
+        const std::size_t keys = keys_of(object);
         for (std::size_t i = 0; i < object.instances.size(); ++i) {
             throw_if_interrupted();
             for (const ModelObject& part : model.objects) {
@@ -246,13 +254,25 @@ class SceneLoader {
                 placed.mesh = model.first_mesh + part.mesh;
                 placed.to_world = object.to_world * object.instances[i] * part.to_world;
                 placed.materials = materials;
-                if (!is_finite(placed.to_world)) {
-                    throw InputError("object '" + placed.name +
-                                     "' has a transform that is not finite or far too large");
+                if (!is_placeable(placed.to_world)) throw InputError(not_placeable(placed.name));
+                if (may_move_) {
+                    animation_.objects.push_back({.keys = keys,
+                                                  .object = object.to_world,
+                                                  .instance = object.instances[i],
+                                                  .own = part.to_world,
+                                                  .name = placed.name});
                 }
                 scene_.objects.push_back(std::move(placed));
             }
         }
+    }
+
+    /// The number of an object's keys.
+    std::size_t keys_of(const ObjectDescription& object) {
+        if (object.keys.empty()) return SceneAnimation::kNone;
+        if (placed_ != &object) animation_.keys.push_back(object.keys);
+        placed_ = &object;
+        return animation_.keys.size() - 1;
     }
 
     static std::string name_of(const ObjectDescription& object, const ModelObject& part, std::size_t instance) {
@@ -278,11 +298,20 @@ class SceneLoader {
     AttributeWish kept_attributes_;             // of files
     std::vector<std::string> attribute_names_;  // of all files, if any are kept
     std::vector<CameraSettings> file_cameras_;
+    std::vector<SceneAnimation::MovingCamera> moving_file_cameras_;
+    SceneAnimation animation_;
+    bool may_move_ = false;                      // some object: else their places are not told
+    const ObjectDescription* placed_ = nullptr;  // the last one that has keys
 };
 
 }  // namespace
 
 Scene load_scene(SceneDescription description, const LoadOptions& options, std::vector<std::string>* files) {
+    return SceneLoader(std::move(description), options, files).load().scene;
+}
+
+AnimatedScene load_animated_scene(SceneDescription description, const LoadOptions& options,
+                                  std::vector<std::string>* files) {
     return SceneLoader(std::move(description), options, files).load();
 }
 

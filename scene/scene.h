@@ -38,8 +38,9 @@ struct PictureSettings {
 
 /// Which frame of an animation the picture is: what `frame` and `time` are in a style sheet.
 struct FrameSettings {
-    int number = 0;
-    double fps = 24;  ///< frames per second
+    double number = 0;
+    double fps = 24;              ///< frames per second
+    bool is_of_sequence = false;  ///< several frames were asked for, be it one at a time
 };
 
 /// Where a smooth surface turns away from the eye.

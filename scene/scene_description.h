@@ -11,6 +11,9 @@
 #include "base/model_budget.h"
 #include "mesh/polygon_soup.h"
 #include "mesh/shapes.h"
+#include "scene/animation/keys.h"
+#include "scene/animation/scene_animation.h"
+#include "scene/animation/turntable.h"
 #include "scene/scene.h"
 
 // A scene description is what a scene file says, before any model is loaded.
@@ -26,6 +29,7 @@ struct ObjectDescription {
     SubdivisionScheme scheme = SubdivisionScheme::automatic;
     std::string material;  ///< name; empty: the file's own materials
     glm::dmat4 to_world{1.0};
+    ObjectKeys keys;                    ///< they say what to_world is at a frame
     std::vector<glm::dmat4> instances;  ///< each within to_world; never empty
     SourcePosition where;               ///< for messages
 };
@@ -35,9 +39,13 @@ struct SceneDescription {
     std::vector<ObjectDescription> objects;
     std::vector<Material> materials;
     std::vector<CameraSettings> cameras;
+    std::vector<CameraKeys> camera_keys;  ///< one per camera
     PictureSettings picture;
     FrameSettings frame;
     std::optional<ShutterSettings> shutter;
+    std::vector<double> frame_range;  ///< the frames that the scene has; empty: it does not say
+    std::optional<Turntable> turntable;
+    std::uint64_t hash = 0;  ///< of what its tables say of all frames (hash_of_scene_tables())
     LineSettings lines;
     std::shared_ptr<const StyleSheet> sheet;
     std::vector<std::string> unread_line_keys;  ///< keys of [lines] that nothing reads beside the sheet
@@ -87,5 +95,14 @@ struct LoadOptions {
 /// `files`: gets the paths of all files that were read.
 Scene load_scene(SceneDescription description, const LoadOptions& options = {},
                  std::vector<std::string>* files = nullptr);
+
+/// A scene as it is at rest, and how it moves.
+struct AnimatedScene {
+    Scene scene;
+    SceneAnimation animation;
+};
+/// The same with what moves.
+AnimatedScene load_animated_scene(SceneDescription description, const LoadOptions& options = {},
+                                  std::vector<std::string>* files = nullptr);
 
 }  // namespace burin

@@ -2,10 +2,12 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/interrupt.h"
 #include "mesh/box.h"
+#include "scene/animation/scene_animation.h"
 #include "scene/scene.h"
 
 namespace burin {
@@ -80,36 +82,68 @@ Box transformed(const glm::dmat4& m, const Box& box) {
 
 }  // namespace
 
+namespace {
+
+using BoxTrees = std::vector<std::unique_ptr<const BoxTree>>;
+
+/// The points of a mesh at its place.
+void visit_points(const Mesh& mesh, const BoxTree& tree, const glm::dmat4& to_world, const PointVisitor& visit) {
+    std::array<glm::dvec3, kPointBlock> some;
+    const auto visit_block = [&](std::size_t block, const auto& place) {
+        throw_if_interrupted();
+        const std::size_t first = block * kPointBlock, count = std::min(kPointBlock, mesh.positions.size() - first);
+        for (std::size_t i = 0; i < count; ++i) some[i] = place(mesh.position(static_cast<std::uint32_t>(first + i)));
+        visit(std::span(some).first(count));
+    };
+    if (to_world == glm::dmat4(1.0)) {
+        tree.for_each_block([&](const Box& box) { return visit.needs(box, true); },
+                            [&](std::size_t block) { visit_block(block, [](const glm::dvec3& p) { return p; }); });
+    } else {
+        tree.for_each_block(
+            [&](const Box& box) { return visit.needs(transformed(to_world, box), false); },
+            [&](std::size_t block) {
+                visit_block(block, [&](const glm::dvec3& p) { return glm::dvec3(to_world * glm::dvec4(p, 1.0)); });
+            });
+    }
+}
+
+const BoxTree& tree_of(const Mesh& mesh, std::unique_ptr<const BoxTree>& tree) {
+    if (!tree) tree = std::make_unique<const BoxTree>(mesh);
+    return *tree;
+}
+
+}  // namespace
+
 PointSource scene_points(const Scene& scene) {
     // The trees of each mesh, made once they are needed: a camera's fit runs twice over all points.
-    const auto trees = std::make_shared<std::vector<std::unique_ptr<const BoxTree>>>(scene.meshes.size());
+    const auto trees = std::make_shared<BoxTrees>(scene.meshes.size());
     return [&scene, trees](const PointVisitor& visit) {
-        std::array<glm::dvec3, kPointBlock> some;
         for (const SceneObject& object : scene.objects) {
             throw_if_interrupted();
             const Mesh& mesh = scene.meshes[object.mesh];
-            const glm::dmat4 to_world = object.to_world;
-            std::unique_ptr<const BoxTree>& tree = (*trees)[object.mesh];
-            if (!tree) tree = std::make_unique<const BoxTree>(mesh);
-            const auto visit_block = [&](std::size_t block, const auto& place) {
+            visit_points(mesh, tree_of(mesh, (*trees)[object.mesh]), object.to_world, visit);
+        }
+    };
+}
+
+PointSource points_of_frames(const Scene& scene, const SceneAnimation& animation, std::vector<double> frames) {
+    if (!animation.moves_objects() || frames.empty()) return scene_points(scene);
+    const auto trees = std::make_shared<BoxTrees>(scene.meshes.size());
+    return [&scene, &animation, frames = std::move(frames), trees](const PointVisitor& visit) {
+        for (const double frame : frames) {
+            const SceneChange change = animation.at(frame);
+            std::vector<const Mesh*> meshes;
+            for (const Mesh& mesh : scene.meshes) meshes.push_back(&mesh);
+            for (const auto& [number, mesh] : change.meshes) meshes[number] = &mesh;
+            BoxTrees changed(scene.meshes.size());
+            for (std::size_t i = 0; i < scene.objects.size(); ++i) {
                 throw_if_interrupted();
-                const std::size_t first = block * kPointBlock,
-                                  count = std::min(kPointBlock, mesh.positions.size() - first);
-                for (std::size_t i = 0; i < count; ++i)
-                    some[i] = place(mesh.position(static_cast<std::uint32_t>(first + i)));
-                visit(std::span(some).first(count));
-            };
-            if (to_world == glm::dmat4(1.0)) {
-                tree->for_each_block(
-                    [&](const Box& box) { return visit.needs(box, true); },
-                    [&](std::size_t block) { visit_block(block, [](const glm::dvec3& p) { return p; }); });
-            } else {
-                tree->for_each_block([&](const Box& box) { return visit.needs(transformed(to_world, box), false); },
-                                     [&](std::size_t block) {
-                                         visit_block(block, [&](const glm::dvec3& p) {
-                                             return glm::dvec3(to_world * glm::dvec4(p, 1.0));
-                                         });
-                                     });
+                const std::uint32_t number = scene.objects[i].mesh;
+                const Mesh& mesh = *meshes[number];
+                const bool is_as_loaded = &mesh == &scene.meshes[number];
+                const BoxTree& tree = tree_of(mesh, (is_as_loaded ? *trees : changed)[number]);
+                visit_points(mesh, tree, change.to_world.empty() ? scene.objects[i].to_world : change.to_world[i],
+                             visit);
             }
         }
     };

@@ -1,13 +1,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <glm/gtc/matrix_transform.hpp>
 #include <optional>
 #include <unordered_set>
 
 #include "base/interrupt.h"
 #include "base/mapped_file.h"
 #include "mesh/text_scan.h"
+#include "scene/animation/keys_toml.h"
+#include "scene/animation/table_hash.h"
 #include "scene/color.h"
 #include "scene/gbuffer_toml.h"
 #include "scene/lines_toml.h"
@@ -31,6 +32,14 @@ constexpr std::size_t kMaxSceneBytes = 64u << 20;
 
 // ---- transforms ----
 
+Placement read_placement(TomlReader& t) {
+    Placement placement;
+    placement.translate = t.vector("translate").value_or(placement.translate);
+    placement.rotate_deg = t.vector("rotate").value_or(placement.rotate_deg);
+    placement.scale = read_scale(t).value_or(placement.scale);
+    return placement;
+}
+
 /// translate * rotate * scale, or a matrix of 16 numbers, row by row.
 glm::dmat4 read_transform(TomlReader& t) {
     if (t.has("matrix")) {
@@ -51,18 +60,7 @@ glm::dmat4 read_transform(TomlReader& t) {
             t.fail("matrix", "makes everything flat; its determinant must not be 0");
         return matrix;
     }
-    const glm::dvec3 translate = t.vector("translate").value_or(glm::dvec3(0.0));
-    const glm::dvec3 rotate_deg = t.vector("rotate").value_or(glm::dvec3(0.0));
-    glm::dvec3 scale(1.0);
-    if (t.has("scale")) {
-        scale = t.is_number("scale") ? glm::dvec3(*t.number("scale", kAnyNumber)) : *t.vector("scale");
-        if (scale.x == 0 || scale.y == 0 || scale.z == 0) t.fail("scale", "must not be zero");
-    }
-    glm::dmat4 matrix = glm::translate(glm::dmat4(1.0), translate);
-    matrix = glm::rotate(matrix, glm::radians(rotate_deg.z), glm::dvec3(0, 0, 1));
-    matrix = glm::rotate(matrix, glm::radians(rotate_deg.y), glm::dvec3(0, 1, 0));
-    matrix = glm::rotate(matrix, glm::radians(rotate_deg.x), glm::dvec3(1, 0, 0));
-    return glm::scale(matrix, scale);
+    return matrix_of(read_placement(t));
 }
 
 // ---- the tables of a scene file ----
@@ -79,6 +77,7 @@ class SceneReader {
         if (auto t = root_.table("picture")) read_picture(*t);
         if (auto t = root_.table("frames")) read_frames(*t);
         if (auto t = root_.table("shutter")) scene_.shutter = read_shutter(*t);
+        if (auto t = root_.table("turntable")) scene_.turntable = read_turntable(*t);
         if (auto t = root_.table("lines")) scene_.lines = read_line_settings(*t);
         read_style();
         if (auto t = root_.table("surfaces")) {
@@ -123,6 +122,7 @@ class SceneReader {
             if (camera.height) camera.orthographic = true;
             camera.fit = t.number("fit", {0, 1, true, false}).value_or(0.95);
             read_lens(t, camera);
+            scene_.camera_keys.push_back(read_camera_keys(t, camera));
             t.finish();
             scene_.cameras.push_back(camera);
         }
@@ -184,6 +184,7 @@ class SceneReader {
                                                          SubdivisionScheme::catmull_clark};
         object.scheme = kSchemes[t.choice("scheme", {"automatic", "loop", "catmull-clark"}).value_or(0)];
         object.to_world = read_transform(t);
+        object.keys = read_object_keys(t, t.has("matrix") ? Placement{} : read_placement(t));
         for (TomlReader& instance : t.tables("instance")) {
             throw_if_interrupted();
             object.instances.push_back(read_transform(instance));
@@ -249,7 +250,8 @@ class SceneReader {
     }
 
     void read_frames(TomlReader& t) {
-        scene_.frame.fps = t.number("fps", {0, 1000000, true, false}).value_or(scene_.frame.fps);
+        scene_.frame.fps = read_frame_rate(t, "fps").value_or(scene_.frame.fps);
+        scene_.frame_range = read_frame_range(t, "range");
         t.finish();
     }
 
@@ -360,7 +362,9 @@ void use_sheet(SceneDescription& scene, std::shared_ptr<const StyleSheet> sheet)
 
 SceneDescription read_scene_tables(const toml::table& tables, const ScenePlace& place, SceneParts parts,
                                    const SheetWishes& wishes) {
-    return SceneReader(place, TomlReader(tables, "", place.name), wishes).read(parts);
+    SceneDescription description = SceneReader(place, TomlReader(tables, "", place.name), wishes).read(parts);
+    description.hash = hash_of_scene_tables(tables);
+    return description;
 }
 
 toml::table parse_scene_text(std::string_view text, const std::string& name) {

@@ -54,7 +54,7 @@ struct FoundLines {
     std::optional<ViewLight> scene_light;  ///< the key light of the scene; none: it is at the eye
     /// What casts shadows in the key light's light; nullptr: nobody reads `lit`.
     std::shared_ptr<const ShadowCasters> casters;
-    int frame = 0;
+    double frame = 0;
     double fps = 24, dpi = 96;
     glm::dvec2 paper_mm{0.0};  ///< size of the sheet, of which width_px and height_px are rounded; 0: none
 };

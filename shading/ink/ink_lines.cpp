@@ -102,8 +102,9 @@ class StrokeMaker {
 
     void make() {
         const StyleSettings& settings = style_.settings;
-        const auto turn =
-            settings.boil ? static_cast<std::uint32_t>(lines_.lines().frame / std::max(settings.hold, 1)) : 0u;
+        const auto turn = settings.boil ? static_cast<std::uint32_t>(static_cast<std::int64_t>(
+                                              lines_.lines().frame / std::max(settings.hold, 1)))
+                                        : 0u;
         for (int copy = 0; copy < settings.copies; ++copy) {
             const SampleVariant variant{settings.seed + turn * 0x9E3779B9u, static_cast<std::uint32_t>(copy),
                                         sheet_.sets()[chunk_.set].name};

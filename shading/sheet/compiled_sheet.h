@@ -28,7 +28,7 @@ struct SheetContext {
     std::vector<std::string> objects, materials;  ///< names; the first one has the number 1
     int width_px = 1920, height_px = 1080;        ///< of the whole picture
     double px_per_mm = 96 / 25.4;
-    int frame = 0;
+    double frame = 0;
     double fps = 24;
     const LineShaders* shaders = nullptr;  ///< that the sheet may name; nullptr: the program has none
 };

@@ -184,22 +184,43 @@ int dead_process() {
     return child;
 }
 
+std::string host() {
+    char name[65] = "";
+    ::gethostname(name, sizeof name - 1);
+    return name;
+}
+
+TEST(AtomicFile, WhatDeadProcessesLeftIsRemovedForAllFramesAtOnce) {
+    const TemporaryFolder folder;
+    const std::string behind = ".burin-" + host() + "-" + std::to_string(dead_process()) + "-0.exr";
+    std::vector<std::string> paths;
+    for (const char* frame : {"o.0001", "o.0002", "o.0003"}) {
+        folder.write("." + std::string(frame) + behind, "x");
+        paths.push_back(folder.file(std::string(frame) + ".exr"));
+    }
+    folder.write(".o.0004" + behind, "x");
+    remove_left_behind(paths);
+    EXPECT_EQ(folder.names(), std::vector<std::string>{".o.0004" + behind});
+}
+
 TEST(AtomicFile, WhatDeadProcessesLeftIsRemoved) {
     const TemporaryFolder folder;
     const std::string dead = std::to_string(dead_process()), alive = std::to_string(::getppid()),
                       own = std::to_string(::getpid());
-    const std::vector<std::string> stale = {".o.burin-" + dead + "-0.exr", ".o.burin-" + dead + "-17.exr",
-                                            ".o.burin-" + dead + "-1.png", ".o.burin-" + own + "-3.exr"};
-    std::vector<std::string> others = {".o.burin-" + alive + "-0.exr",
-                                       ".p.burin-" + dead + "-0.exr",
+    const std::string mark = ".burin-" + host() + "-";
+    const std::vector<std::string> stale = {".o" + mark + dead + "-0.exr", ".o" + mark + dead + "-17.exr",
+                                            ".o" + mark + dead + "-1.png", ".o" + mark + own + "-3.exr"};
+    std::vector<std::string> others = {".o" + mark + alive + "-0.exr",
+                                       ".p" + mark + dead + "-0.exr",
                                        ".o.burin-x",
-                                       ".o.burin-" + dead,
-                                       "o.burin-" + dead + "-0.exr",
-                                       ".o.burin--1-0.exr"};
+                                       ".o.burin-elsewhere-" + dead + "-0.exr",
+                                       ".o" + mark + dead,
+                                       "o" + mark + dead + "-0.exr",
+                                       ".o" + mark + "-1-0.exr"};
     for (const std::string& name : stale) folder.write(name, "x");
     for (const std::string& name : others) folder.write(name, "x");
-    // A process on another machine, which shares the folder, has left this one.
-    const std::string locked = ".o.burin-" + dead + "-5.exr";
+    // A process of another container has left this one.
+    const std::string locked = ".o" + mark + dead + "-5.exr";
     const int fd = ::open(folder.write(locked, "x").c_str(), O_RDONLY | O_CLOEXEC);
     ASSERT_EQ(::flock(fd, LOCK_EX), 0);
     others.push_back(locked);

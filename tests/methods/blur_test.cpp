@@ -105,9 +105,9 @@ TEST(MotionBlur, OfALineIsABoxAsLongAsItsWay) {
             double mass = 0;
             for (int x = 0; x < kWidth; ++x) {
                 const double seen = row[static_cast<std::size_t>(x)];
-                const double right =
-                    smeared(x + 0.5 - start, width_px, 0, way_px, [](double) { return 1.0; });
-                ASSERT_NEAR(seen, right, step * step / (6 * way_px) + 1.0 / 500) << way_px << " " << width_px << " " << x;
+                const double right = smeared(x + 0.5 - start, width_px, 0, way_px, [](double) { return 1.0; });
+                ASSERT_NEAR(seen, right, step * step / (6 * way_px) + 1.0 / 500)
+                    << way_px << " " << width_px << " " << x;
                 mass += seen;
             }
             ASSERT_NEAR(mass, width_px, 1e-3 * std::max(width_px, 1.0)) << way_px;
@@ -180,7 +180,8 @@ TEST(DepthOfField, LeavesThePlaneInFocusAsItIs) {
     blur.has_lens = true;
     const MomentAt moment_at = [&](double, MomentUse) { return Moment{&scene, camera, nullptr}; };
     EXPECT_EQ(sub_frame_count(blur, moment_at, kWidth, kHeight), 1);
-    const auto row = row_of(blurred(blur, 24, moment_at), 8), sharp_row = row_of(sharp(scene, camera, kWidth, kHeight), 8);
+    const auto row = row_of(blurred(blur, 24, moment_at), 8),
+               sharp_row = row_of(sharp(scene, camera, kWidth, kHeight), 8);
     EXPECT_EQ(row, sharp_row);
 }
 

@@ -109,7 +109,8 @@ Image random_picture(test::Random& random, PixelRect rect) {
     Image image(rect, rect);
     for (const char* name : {"R", "lines.A"}) {
         for (std::uint16_t& value : image.add(name, PixelType::float16).as<std::uint16_t>())
-            value = random.integer(0, 3) == 0 ? half_from_float(static_cast<float>(random.real(0, 2))) : std::uint16_t{0};
+            value =
+                random.integer(0, 3) == 0 ? half_from_float(static_cast<float>(random.real(0, 2))) : std::uint16_t{0};
     }
     for (float& value : image.add("Z", PixelType::float32).as<float>()) value = 7;
     return image;

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/arguments.h"
+#include "cli/output_files.h"
+#include "scene/animation/frame_pattern.h"
+#include "scene/scene_description.h"
+
+namespace burin {
+
+/// A file that is written per frame, or once if there is one frame only.
+struct FrameFile {
+    std::string option;  ///< that asks for it
+    std::string path;    ///< as it was given
+    std::optional<FramePattern> pattern;
+
+    std::string path_of(double frame) const { return pattern ? pattern->path_of(frame) : path; }
+};
+
+/// Which frames a command renders, and what it calls their files.
+struct FramePlan {
+    std::vector<double> frames;  ///< in order, at least one
+    bool is_sequence = false;    ///< frames were asked for; else it is a still
+    bool is_at_rest = false;     ///< a still of a scene that does not say which frames it has
+    FrameFile picture;
+    std::optional<FrameFile> lines;  ///< --save-lines
+};
+
+/// Refuses names that do not fit the frames that the command line asks for, before the scene is read. Throws
+/// UsageError.
+void check_names_of_frames(const Arguments& arguments, const std::string& picture);
+
+/// The frames that the command line asks for, or else the scene. `picture`: the name of the picture's file. Throws
+/// UsageError.
+FramePlan plan_frames(const Arguments& arguments, const SceneDescription& scene, const std::string& picture);
+
+/// The files of all frames of a plan.
+std::vector<OutputFile> outputs_of(const FramePlan& plan);
+
+}  // namespace burin

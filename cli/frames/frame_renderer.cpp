@@ -1,0 +1,320 @@
+#include "cli/frames/frame_renderer.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+
+#include "base/atomic_file.h"
+#include "base/limit_error.h"
+#include "base/stopwatch.h"
+#include "cli/render_notes.h"
+#include "cli/sheet_refusal.h"
+#include "cli/sheet_views.h"
+#include "cli/vector_output.h"
+#include "mesh/text_scan.h"
+#include "methods/abuffer.h"
+#include "output/lines_file.h"
+#include "output/whole_files.h"
+#include "render/layer_names.h"
+#include "render/picture_notes.h"
+#include "scene/animation/frame_list.h"
+#include "scene/plain_sheet.h"
+
+namespace burin {
+namespace {
+
+/// Of a blurred frame: keys of animations change what is there at some of them.
+constexpr int kTimesOfFingerprint = 16;
+
+/// Refuses hidden lines that the command line asks for with a method that has none: only the A-buffer keeps the
+/// surfaces behind the first. Returns whether the scene asks for hidden lines.
+bool refuse_hidden_lines(const Arguments& a, const Method& method, Scene& scene) {
+    const bool has_hidden_lines = scene.lines.style.hidden.style != HiddenStyle::none;
+    if (method.name == "abuffer") return has_hidden_lines;
+    if (a.hidden && *a.hidden != HiddenStyle::none) {
+        throw UsageError("--hidden: method " + std::string(method.name) + " draws no hidden lines; use method abuffer");
+    }
+    scene.lines.style.hidden.style = HiddenStyle::none;
+    return has_hidden_lines;
+}
+
+/// Refuses a shading that varies over surfaces where a method draws none.
+void refuse_varied_shading(const Scene& scene, const Method& method) {
+    if (!varies(scene.surfaces.shading) || method.name == "abuffer" || method.name == "reference") return;
+    throw UsageError("[surfaces]: method " + std::string(method.name) +
+                     " fills surfaces with paper, lambert or none only; draw with method abuffer or reference, or "
+                     "choose another shading");
+}
+
+LayerSet layers_for(const Scene& scene, const Arguments& a) {
+    try {
+        return layers_of(scene, a.names_layers ? std::optional(a.layers) : std::nullopt);
+    } catch (const UsageError& error) {
+        throw UsageError("--layers: " + std::string(error.what()));
+    }
+}
+
+/// Paths are made of what a style sheet draws; the look of [lines] is one, too.
+void draw_by_sheet(Scene& scene) {
+    if (!scene.sheet) scene.sheet = std::make_shared<const StyleSheet>(plain_sheet(scene.lines));
+    scene.names_lines = true;
+}
+
+Film make_film(const Frame& frame, const LayerSet& layers, bool in_bands, const std::string& path) {
+    try {
+        const PixelRect display{0, 0, frame.width, frame.height};
+        Film film = in_bands ? Film::in_bands(display, frame.crop, layers, frame.criteria.classes)
+                             : Film(display, frame.crop, layers, frame.criteria.classes);
+        if (!film.channels().empty()) return film;
+    } catch (const InputError& error) {
+        throw InputError(path + ": " + error.what());
+    }
+    throw UsageError("--layers: coverage has a channel per line class, and no class is drawn");
+}
+
+/// Refuses what a method cannot draw, and has the scene drawn by a style sheet where paths are made. Returns whether
+/// the scene asks for hidden lines.
+bool settle_look(const Arguments& a, const Method& method, bool has_paths, Scene& scene) {
+    if (method.name != "abuffer") refuse_sheet(scene, "method " + std::string(method.name) + " draws no style sheets");
+    refuse_varied_shading(scene, method);
+    if (!scene.sheet && (!a.save_lines.empty() || a.finds_all)) {
+        throw UsageError((a.save_lines.empty() ? std::string("--find") : std::string("--save-lines")) +
+                         ": lines are found for a style sheet; give one with --style");
+    }
+    const bool has_hidden_lines = refuse_hidden_lines(a, method, scene);
+    if (has_paths) draw_by_sheet(scene);
+    return has_hidden_lines;
+}
+
+/// A text without its numbers.
+std::string without_numbers(std::string text) {
+    std::erase_if(text, [](char c) { return c >= '0' && c <= '9'; });
+    return text;
+}
+
+}  // namespace
+
+void DrawnFrame::write(const Arguments& a) {
+    Stopwatch watch;
+    if (bands) {
+        bands->finish();
+    } else if (is_vector(output.format)) {
+        write_vector(drawing, a, output);
+    } else {
+        write_output(frame, *film, output);
+    }
+    times.write_s = times.render.write_s + watch.lap();
+}
+
+FrameRenderer::FrameRenderer(const Arguments& a, const Method& method, LoadedInput input, const FramePlan& plan,
+                             const OutputOptions& output)
+    : arguments_(a),
+      method_(method),
+      plan_(plan),
+      format_(output.format),
+      animation_(std::move(input.animation)),
+      fingerprints_(plan.is_sequence || a.skips_existing ? std::optional<Fingerprints>(std::in_place, a, input)
+                                                         : std::nullopt),
+      is_blurred_(a.shutter || input.scene.shutter),
+      posed_(std::move(input.scene), a, method, plan.frames.size() + (is_blurred_ ? 1 : 0)) {
+    const Stopwatch watch;
+    Scene& scene = posed_.scene();
+    scene.frame.is_of_sequence = plan.is_sequence;
+    has_hidden_lines_ = settle_look(a, method, is_vector(output.format), scene);
+    first_cameras_ = scene.cameras;
+    const PointSource points = points_of_frames(scene, animation_, input.frame_range);
+    views_ = views_of(scene, points, a);
+    if (views_.empty()) {
+        const bool has_range = !input.frame_range.empty() && animation_.moves();
+        const std::vector<CameraSettings> first =
+            has_range ? animation_.at(input.frame_range.front()).cameras : std::vector<CameraSettings>();
+        job_camera_.emplace(scene, first.empty() ? scene.cameras : first, points, input.turntable, a);
+        camera_ = job_camera_->at(first.empty() ? scene.cameras : first, scene.picture, plan.frames.front());
+    }
+    const bool moves = !plan.is_at_rest && (animation_.moves() || input.turntable);
+    blur_ = blur_of(scene, camera_, a, moves, is_vector(output.format));
+    pose_s_ = watch.seconds();
+}
+
+std::string FrameRenderer::fingerprint_of(double frame) const {
+    if (!fingerprints_) return {};
+    SceneChange places;
+    if (!plan_.is_at_rest) places = animation_.places_at(frame);
+    places.frame = frame;
+    std::vector<std::string> files = animation_.files_at(frame);
+    std::vector<Camera> cameras;
+    for (const ViewOnSheet& view : views_) cameras.push_back(view.camera);
+    if (views_.empty()) {
+        const Scene& scene = posed_.scene();
+        const auto add_camera = [&](const SceneChange& change) {
+            const bool has_own = !change.cameras.empty();
+            cameras.push_back(job_camera_->at(has_own ? change.cameras : first_cameras_, scene.picture, change.frame));
+        };
+        add_camera(places);
+        for (const SubFrame& sub :
+             blur_.shutter ? sub_frames(&*blur_.shutter, false, kTimesOfFingerprint) : std::vector<SubFrame>()) {
+            SceneChange change = animation_.places_at(frame + sub.time);
+            change.frame = frame + sub.time;
+            places.to_world.insert(places.to_world.end(), change.to_world.begin(), change.to_world.end());
+            add_camera(change);
+            for (std::string& file : animation_.files_at(change.frame)) {
+                if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(std::move(file));
+            }
+        }
+    }
+    return fingerprints_->of(places, cameras, files, format_);
+}
+
+bool FrameRenderer::is_there(double frame, const std::string& fingerprint, std::string& note) const {
+    const auto is_made = [&](const std::string& path, const std::optional<WholeFile>& file) {
+        if (!file) {
+            if (std::error_code error; std::filesystem::exists(path, error)) note = path + " is not whole";
+            return false;
+        }
+        if (file->fingerprint != fingerprint) {
+            note = path + (file->fingerprint.empty() ? " has no fingerprint" : " was made from another input");
+            return false;
+        }
+        const PictureSettings& picture = scene().picture;
+        const PixelRect whole{0, 0, picture.width, picture.height};
+        const PixelRect wanted = format_ == OutputFormat::exr ? crop_of(arguments_, whole.x1, whole.y1) : whole;
+        if (!file->data || *file->data == wanted) return true;
+        note = path + " has another part of the picture";
+        return false;
+    };
+    const std::string path = plan_.picture.path_of(frame);
+    if (!is_made(path, find_whole_file(path, format_))) return false;
+    if (!plan_.lines) return true;
+    const std::string lines = plan_.lines->path_of(frame);
+    return is_made(lines, find_whole_lines_file(lines));
+}
+
+SceneChange FrameRenderer::change_at(double frame) const {
+    if (animation_.moves() && !plan_.is_at_rest) return animation_.at(frame);
+    SceneChange change;
+    change.frame = frame;
+    return change;
+}
+
+void FrameRenderer::pose(SceneChange&& change) {
+    const Stopwatch watch;
+    for (const std::string& text : change.notes) note(text);
+    posed_.pose(std::move(change));
+    camera_ = views_.empty() ? job_camera_->at(scene()) : views_.front().camera;
+    posed_.make_ready(camera_);
+    pose_s_ += watch.seconds();
+}
+
+Moment FrameRenderer::moment_at(double number, double time, MomentUse use) {
+    if (blur_.shutter) {
+        if (use == MomentUse::extent) posed_.put_back();
+        SceneChange change = change_at(number + time);
+        for (const std::string& text : change.notes) note(text);
+        posed_.pose(std::move(change));
+        camera_ = job_camera_->at(scene());
+        posed_.scene().frame.number = number;  // looks are those of one frame
+        if (use == MomentUse::drawing) posed_.make_ready(camera_);
+    }
+    return {&scene(), camera_, &posed_.prepared()};
+}
+
+DrawnFrame FrameRenderer::draw(const OutputOptions& output, Progress* progress) {
+    Stopwatch watch;
+    DrawnFrame drawn;
+    drawn.number = scene().frame.number;
+    drawn.output = output;
+    const MomentAt moments = [this, number = drawn.number](double time, MomentUse use) {
+        return moment_at(number, time, use);
+    };
+    const PictureSettings& picture = scene().picture;
+    drawn.sub_frames = sub_frame_count(blur_, moments, picture.width, picture.height);
+    // What the frame says of itself is that of the middle.
+    if (blur_.shutter) {
+        moments(drawn.sub_frames > 1 ? middle_sub_frame(&*blur_.shutter).time : 0, MomentUse::drawing);
+    }
+    drawn.frame = frame_of(scene(), camera_, arguments_, &posed_.prepared());
+    const Frame& frame = drawn.frame;
+    drawn.times.load_s = std::exchange(pose_s_, 0) + watch.lap();
+    if (is_first_) note_limits(arguments_, frame, method_, has_hidden_lines_, output);
+
+    LayerSet layers = layers_for(scene(), arguments_);
+    if (output.format != OutputFormat::exr) layers = LayerSet{true, false, false, false, false, false, false, false};
+    // An EXR is compressed while it is drawn; but not when times are taken.
+    const bool in_bands = output.format == OutputFormat::exr && arguments_.repeat == 0 && views_.empty() &&
+                          drawn.sub_frames == 1 && method_.finishes_in_bands != nullptr &&
+                          method_.finishes_in_bands(frame);
+    drawn.film = std::make_unique<Film>(make_film(frame, layers, in_bands, output.path));
+    RunOptions run{arguments_.threads, progress, arguments_.memory_bytes};
+    if (in_bands) {
+        drawn.bands = std::make_unique<BandWriter>(*drawn.film, output);
+        run.finished_band = [&drawn](std::size_t band) { drawn.bands->write(band); };
+    }
+    if (plan_.lines) {
+        run.found_lines = [&](const FoundLines& lines, const Film& surfaces) {
+            AtomicFile file(plan_.lines->path_of(drawn.number));
+            write_lines_file(file, lines, arguments_.saves_surface ? kept_surface(surfaces) : KeptSurface{},
+                             output.fingerprint);
+            file.commit();
+        };
+    }
+    try {
+        drawn.times.render = draw_picture(frame, run, *drawn.film, drawn);
+    } catch (const LimitError& error) {
+        throw InputError(arguments_.input + ": --memory: " + error.what());
+    } catch (const InputError& error) {
+        if (drawn.bands && drawn.bands->has_failed()) throw;
+        const std::string message = error.what();  // begins with the file where it has a place
+        throw InputError(message.starts_with(arguments_.input + ":") ? message : arguments_.input + ": " + message);
+    }
+    run.found_lines = nullptr;
+    if (arguments_.repeat > 0) {
+        run.progress = nullptr;
+        std::vector<RenderStats> runs;
+        for (int i = 0; i < arguments_.repeat; ++i) runs.push_back(draw_picture(frame, run, *drawn.film, drawn));
+        drawn.times.render = median_of(std::move(runs));
+    }
+    const bool counts = (method_.name == "abuffer" || method_.name == "patel") && !arguments_.crop;
+    const bool has_lines = std::any_of(scene().meshes.begin(), scene().meshes.end(),
+                                       [](const Mesh& mesh) { return !mesh.loose_edges.empty(); });
+    if (counts && drawn.times.render.fragments == 0 && !has_lines) note(kNoSurfaceIsSeen);
+    for (const std::string& text : drawn.times.render.notes) note(text);
+    is_first_ = false;
+    return drawn;
+}
+
+RenderStats FrameRenderer::draw_picture(const Frame& frame, const RunOptions& run, Film& film, DrawnFrame& drawn) {
+    if (drawn.sub_frames > 1) {
+        const MomentAt moments = [this, number = drawn.number](double time, MomentUse use) {
+            return moment_at(number, time, use);
+        };
+        return render_blurred(method_, blur_, drawn.sub_frames, moments, frame.width, frame.height, run, film);
+    }
+    const SheetViews sheet{scene(), arguments_, views_, &posed_.prepared()};
+    if (!is_vector(drawn.output.format))
+        return views_.empty() ? method_.render(frame, run, film) : sheet.draw(method_, run, film);
+    RenderStats stats;
+    if (VectorStats& paths = drawn.times.paths.emplace(); views_.empty()) {
+        const FoundLines lines = find_styled_lines(frame, run, film, stats);
+        drawn.drawing = draw_paths(lines, frame, arguments_, paths, stats.notes);
+    } else {
+        stats = sheet.draw_as_paths(run, film, drawn.drawing, paths);
+    }
+    finish_drawing(scene().picture, arguments_, drawn.drawing, *drawn.times.paths, stats.notes);
+    return stats;
+}
+
+/// Says what the user should know of a frame. Of a sequence, what other frames have, too, is said once.
+void FrameRenderer::note(const std::string& text) {
+    if (arguments_.quiet) return;
+    std::string prefix;
+    if (plan_.is_sequence) {
+        std::string kind = without_numbers(text);
+        if (std::find(noted_.begin(), noted_.end(), kind) != noted_.end()) return;
+        noted_.push_back(std::move(kind));
+        prefix = "frame " + text_of_frame(scene().frame.number) + ": ";
+    }
+    std::fprintf(stderr, "burin: note: %s%s\n", prefix.c_str(), printable(text, 4000).c_str());
+}
+
+}  // namespace burin

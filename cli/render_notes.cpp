@@ -1,0 +1,102 @@
+#include "cli/render_notes.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "methods/gbuffer/gbuffer.h"
+#include "methods/patel/patel.h"
+#include "render/picture_notes.h"
+
+namespace burin {
+namespace {
+
+/// Notes lines of the input that are not drawn.
+void note_loose_edges(const Frame& frame, const Method& method) {
+    if (const std::string missing = note_on_missing_marks(frame); !missing.empty()) {
+        const std::string draw_it =
+            frame.scene->sheet
+                ? ""
+                : "; --lines " + to_string(frame.scene->lines.classes | LineClass::mark) + " has it, too";
+        std::fprintf(stderr, "burin: note: %s%s\n", missing.c_str(), draw_it.c_str());
+        return;
+    }
+    std::uint64_t count = 0;
+    for (const SurfaceInstance& instance : frame.surfaces.instances) count += instance.mesh->loose_edges.size();
+    if (count > 0 && !method.draws_loose_edges && method.draws.has(LineClass::mark)) {
+        const std::string lines = count == 1 ? "1 line" : std::to_string(count) + " lines";
+        std::fprintf(
+            stderr,
+            "burin: note: method %s draws edges of polygons only, and leaves out %s of the input; abuffer draws them\n",
+            std::string(method.name).c_str(), lines.c_str());
+    }
+}
+
+}  // namespace
+
+void note_limits(const Arguments& a, const Frame& frame, const Method& method, bool has_hidden_lines,
+                 const OutputOptions& output) {
+    if (a.quiet) return;
+    if (a.names_layers && output.format != OutputFormat::exr) {
+        std::fputs("burin: note: only an EXR has --layers; this file gets the beauty layer\n", stderr);
+    }
+    if (a.has_vector_options && !is_vector(output.format)) {
+        std::fputs("burin: note: --tolerance, --chord-sag, --dashes, --group, --ids and --merge are for vector files\n",
+                   stderr);
+    }
+    if (output.format == OutputFormat::exr && (a.bits != Arguments().bits || !a.background.empty())) {
+        std::fputs(
+            "burin: note: --bits and --background are for PNG and TIFF; an EXR is half precision without paper\n",
+            stderr);
+    }
+    if (is_vector(output.format) && frame.scene->surfaces.shading == SurfaceShading::lambert) {
+        std::fputs("burin: note: a vector file has lines only; the surfaces are left out\n", stderr);
+    }
+    const auto note_if_unused = [&](bool is_given, const char* option, std::string_view user) {
+        if (!is_given || method.name == user) return;
+        std::fprintf(stderr, "burin: note: %s is for method %s and changes nothing here\n", option,
+                     std::string(user).c_str());
+    };
+    note_if_unused(a.mask_bits.has_value(), "--mask", "patel");
+    note_if_unused(a.samples_per_pixel.has_value(), "--samples", "abuffer");
+    note_if_unused(a.gbuffer_operators.has_value(), "--operator", "gbuffer");
+    note_if_unused(a.supersample.has_value(), "--supersample", "gbuffer");
+    note_if_unused(has_hidden_lines, "lines.hidden", "abuffer");
+    note_if_unused(has_transparent_surfaces(*frame.scene), "the opacity of materials", "abuffer");
+    const LineSettings& lines = frame.scene->lines;
+    note_loose_edges(frame, method);
+    const auto missing = LineClassSet::from_bits(lines.classes.bits & ~unsigned{method.draws.bits});
+    if (!missing.empty()) {
+        std::fprintf(stderr, "burin: note: method %s cannot draw %s\n", std::string(method.name).c_str(),
+                     to_string(missing).c_str());
+    }
+    if (lines.style.side != StrokeSide::both && method.name != "abuffer" && method.name != "patel" &&
+        method.name != "reference") {
+        std::fprintf(
+            stderr,
+            "burin: note: method %s draws strokes on both sides; lines.side is for abuffer, patel and reference\n",
+            std::string(method.name).c_str());
+    }
+    note_if_unused(lines.style.filter != PixelFilter::box, "lines.filter", "abuffer");
+    note_if_unused(lines.style.dash_px.has_value(), "lines.dash", "abuffer");
+    note_if_unused(lines.contours != Contours::mesh, "lines.contours", "abuffer");
+    if (lines.crease_fade_deg > 0 && method.name != "abuffer") {
+        std::fprintf(stderr, "burin: note: method %s fades no creases; it draws them from %.4g degrees on\n",
+                     std::string(method.name).c_str(), lines.crease_angle_deg);
+    }
+    const double wanted = lines.style.width_px;
+    const double drawn = patel_line_width_px(frame.scene->patel.mask_bits, wanted);
+    if (method.name == "patel" && std::abs(drawn - wanted) > 0.01 * wanted) {
+        std::fprintf(stderr, "burin: note: method patel draws lines %.3g px wide with %d-bit masks, not %.3g px\n",
+                     drawn, frame.scene->patel.mask_bits, wanted);
+    }
+    const double gbuffer_px = gbuffer_line_width_px(*frame.scene);
+    if (method.name == "gbuffer" && std::abs(gbuffer_px - wanted) > 0.01 * wanted) {
+        std::fprintf(stderr,
+                     "burin: note: method gbuffer draws lines about %.3g px wide, by direction %.2g to %.2g px, "
+                     "with --supersample %d, not %.3g px\n",
+                     gbuffer_px, gbuffer_px / std::sqrt(2.0), gbuffer_px * std::sqrt(2.0),
+                     frame.scene->gbuffer.supersample, wanted);
+    }
+}
+
+}  // namespace burin
