@@ -105,6 +105,7 @@ void DrawnFrame::write(const Arguments& a) {
         write_output(frame, *film, output);
     }
     times.write_s = times.render.write_s + watch.lap();
+    times.total_s = times.load_s + drawing_seconds(times.render) + times.write_s;
 }
 
 FrameRenderer::FrameRenderer(const Arguments& a, const Method& method, LoadedInput input, const FramePlan& plan,

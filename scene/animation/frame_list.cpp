@@ -64,6 +64,7 @@ class PartReader {
 std::vector<double> parse_frame_list(std::string_view text) {
     std::vector<double> frames;
     std::unordered_set<std::int64_t> seen;
+    const bool is_single = text.find(',') == std::string_view::npos;
     for (std::size_t begin = 0, end = 0; end != std::string_view::npos; begin = end + 1) {
         end = text.find(',', begin);
         std::string_view part = text.substr(begin, end == std::string_view::npos ? end : end - begin);
@@ -86,7 +87,8 @@ std::vector<double> parse_frame_list(std::string_view text) {
             reader.fail("a list has at most " + std::to_string(kMostFrames) + " frames");
         for (std::int64_t i = 0; i < count; ++i) {
             const std::int64_t frame = first < last ? first + i * step : first - i * step;
-            if (seen.insert(frame).second) frames.push_back(frame_of(frame));
+            // A single range has each frame once.
+            if (is_single || seen.insert(frame).second) frames.push_back(frame_of(frame));
         }
     }
     return frames;

@@ -63,7 +63,7 @@ TEST(FrameList, RefusesTheRest) {
     EXPECT_EQ(error_of("5-1x0"), "5-1x0: a step must not be 0");
     EXPECT_EQ(error_of("1,5-1x0,9"), "5-1x0: a step must not be 0");
     EXPECT_NE(error_of("10-1x-2").find("positive"), std::string::npos);
-    for (const char* text : {"",   ",",   "1,",  "a",   "1-",   "-",   "--1",   "1-2-3", "1x2", "1-2x", "1...2", ".",
+    for (const char* text : {"",   ",",   "1,",  "a",   "1-",   "-",   "--1",   "1-2-3", "1x2", "1-2x", ".",
                              "1.", "nan", "inf", "1e3", "0x10", "1 2", "1-2y3", "1;2",   "#",   "1,,2", "\xff"})
         EXPECT_NE(error_of(text), "") << text;
     // Nothing is made of what is too much.
@@ -118,7 +118,8 @@ TEST(FramePattern, IsOneInTheLastComponent) {
     EXPECT_FALSE(FramePattern::find("part#1.exr", SingleHash::letter));
     EXPECT_TRUE(FramePattern::find("part#1.exr", SingleHash::digits));
     EXPECT_TRUE(FramePattern::find("part##.exr", SingleHash::letter));
-    for (const std::string path : {"##.%04d.exr", "a##b##.exr", "%99999999999999999999d", std::string(40, '#').c_str()})
+    for (const std::string path :
+         {"##.%04d.exr", "a##b##.exr", "%99999999999999999999d", "########################################"})
         EXPECT_THROW(FramePattern::find(path, SingleHash::letter), InputError) << path;
 }
 
