@@ -32,7 +32,7 @@ extern "C" {
 
 /** The version of this interface. It counts up with every change; a library works for programs that were built with
  * the same number or a smaller one. */
-#define BURIN_ABI 4
+#define BURIN_ABI 5
 /** BURIN_ABI of the library that is loaded. */
 BURIN_API int burin_abi(void);
 /** Its version, "0.1.0". */
@@ -166,8 +166,9 @@ typedef struct burin_view {
                                      position, exact to single precision; all 0: one of the scene's cameras */
     double fov_deg;             /**< with a matrix: vertical field of view, between 0 and 180; 0: 35 */
     double ortho_height;        /**< with a matrix: visible height in world units, orthographic; 0: perspective */
-    double shift[2];            /**< for later; must be 0 */
-    double pixel_aspect;        /**< for later; must be 1, or 0, which counts as 1 */
+    double shift[2];     /**< with a matrix: the lens is shifted, so that the picture shows what is so much farther
+                              to the right and up, in heights of the picture, -100 to 100 */
+    double pixel_aspect; /**< for later; must be 1, or 0, which counts as 1 */
 } burin_view;
 
 /** How to work. Nothing here changes a pixel. */

@@ -66,10 +66,20 @@ CameraSettings camera_of_matrix(const burin_view& view) {
     camera.orthographic = view.ortho_height > 0;
     if (camera.orthographic) camera.height = view.ortho_height;
     if (view.fov_deg > 0) camera.fov_deg = view.fov_deg;
+    for (int i = 0; i < 2; ++i) {
+        if (!(std::abs(view.shift[i]) <= 100)) {
+            throw UsageError("view.shift: must be from -100 to 100, got " + number_text(view.shift[i]));
+        }
+        camera.shift[i] = view.shift[i];
+    }
     return camera;
 }
 
 CameraSettings camera_of_scene(const burin_view& view, const std::vector<CameraSettings>& cameras) {
+    if (!(view.shift[0] == 0 && view.shift[1] == 0)) {
+        throw UsageError(
+            "view.shift: is for a view with camera_to_world; set that of the scene's camera by burin_set()");
+    }
     if (view.fov_deg != 0 || view.ortho_height != 0) {
         throw UsageError(
             "view.fov_deg and view.ortho_height are for a view with camera_to_world; set those of the "
@@ -86,7 +96,6 @@ CameraSettings camera_of_scene(const burin_view& view, const std::vector<CameraS
 
 ViewInput checked_view(const burin_view& view, const PictureSettings& picture,
                        const std::vector<CameraSettings>& cameras) {
-    if (!(view.shift[0] == 0 && view.shift[1] == 0)) throw UsageError("view.shift: not in this version; must be 0");
     if (!(view.pixel_aspect == 0 || view.pixel_aspect == 1)) {
         throw UsageError("view.pixel_aspect: not in this version; must be 1");
     }

@@ -149,6 +149,7 @@ void add_frame_options(CLI::App& app, Texts& t) {
     app.add_option("--turntable", t.frames.turntable, "the camera goes around the scene in this many frames");
     app.add_flag("--skip-existing", t.frames.skips_existing,
                  "leave out frames that are there, whole and made from the same input");
+    for (const BlurOption& option : blur_options(t.frames.blur)) app.add_option(option.name, *option.text, option.help);
     app.add_flag("--keep-going", t.frames.keeps_going, "a frame that fails does not end the job");
 }
 

@@ -42,6 +42,10 @@ struct Arguments {
     std::string save_lines;  ///< file for the lines of the picture
     bool saves_surface = false, finds_all = false;
     std::optional<int> frame;
+    std::optional<std::array<double, 2>> shutter;  ///< when it opens and closes
+    bool has_blur_samples = false;
+    std::optional<int> blur_samples;  ///< none: as many as the picture needs
+    std::optional<double> lens_radius, focus;
     std::optional<double> dpi;
     PagePreset page = PagePreset::none;
     bool has_style_of_page = false;   ///< no other was given

@@ -26,6 +26,7 @@ void fill_frame_options(const FrameTexts& t, Arguments& a) {
         a.turntable_frames = integer("--turntable", t.turntable, 1, static_cast<int>(kMostFrames));
     a.skips_existing = t.skips_existing;
     a.keeps_going = t.keeps_going;
+    fill_blur_options(t.blur, a);
     const auto refuse = [&](bool is_given, const char* beside) {
         if (!is_given) return;
         const std::string option = a.frame_list.empty() ? "--turntable" : "--frames";

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "cli/arguments.h"
+#include "cli/blur_options.h"
 
 namespace burin {
 
@@ -11,6 +12,7 @@ namespace burin {
 struct FrameTexts {
     std::string frames, fps, turntable;
     bool skips_existing = false, keeps_going = false;
+    BlurTexts blur;
 };
 
 /// Checks them. Throws UsageError. The other options have been checked.

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/lower_extension.h"
+#include "cli/blur.h"
 #include "cli/sheet_wishes.h"
 #include "mesh/model.h"
 #include "mesh/text_scan.h"
@@ -71,6 +72,7 @@ CameraSettings viewing_camera(const std::vector<CameraSettings>& cameras, const 
 CameraSettings camera_settings(const std::vector<CameraSettings>& cameras, const PictureSettings& picture,
                                const Arguments& a) {
     CameraSettings camera = viewing_camera(cameras, a);
+    set_lens(a, camera);
     const PaperSettings& paper = picture.paper;
     if (paper.scale && a.ortho_height)
         throw UsageError("--ortho: cannot stand beside picture.scale, which says the same; remove one");

@@ -36,7 +36,8 @@ std::vector<std::string> join_negative_values(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) {
         std::string argument = argv[i];
         const std::string_view next = i + 1 < argc ? argv[i + 1] : "";
-        const bool takes_vector = argument == "--eye" || argument == "--target" || argument == "--up";
+        const bool takes_vector =
+            argument == "--eye" || argument == "--target" || argument == "--up" || argument == "--shutter";
         const bool takes_frames = argument == "-f" || argument == "--frames";
         const bool is_negative = next.size() > 1 && next[0] == '-' && next[1] >= '0' && next[1] <= '9';
         if (takes_frames && is_negative) argument = "--frames";

@@ -189,6 +189,7 @@ class Film {
     void end_picture() { drawn_.end_picture(); }
     /// All pixels of a whole film.
     const Image& image() const { return block_of(0)->image; }
+    Image& image() { return block_of(0)->image; }
 
   private:
     struct HalfPlanes {

@@ -14,6 +14,7 @@
 #include "shading/sheet/compiled_sheet.h"
 #include "shading/sheet/style_sheet.h"
 #include "shading/surface/surface_look.h"
+#include "view/screen_polygon.h"
 
 namespace burin {
 namespace {
@@ -111,6 +112,13 @@ Frame make_frame(const Scene& scene, const Camera& camera, int width, int height
         }
     }
     surfaces.projection = camera.projection(width, height, 0);
+    const glm::dvec2 center = surfaces.projection.center_px;
+    if (!(std::max({std::abs(center.x), std::abs(center.y), std::abs(width - center.x), std::abs(height - center.y)}) <=
+          kGuardBandPx)) {
+        throw InputError("the camera's shift moves the picture beyond " +
+                         std::to_string(static_cast<int>(kGuardBandPx)) +
+                         " pixels from its axis; make the shift or the picture smaller");
+    }
     set_reach(surfaces, view_boxes, glm::length(camera.eye()), {width, height});
     return frame;
 }

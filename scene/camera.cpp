@@ -11,6 +11,7 @@ namespace burin {
 namespace {
 
 constexpr double kMostCoordinate = 1e30;  // as for models: squares and products must stay finite
+constexpr double kMostShift = 100;
 
 bool is_reasonable(const glm::dvec3& v) {
     return std::abs(v.x) <= kMostCoordinate && std::abs(v.y) <= kMostCoordinate && std::abs(v.z) <= kMostCoordinate;
@@ -50,16 +51,26 @@ glm::dmat3 orientation(const glm::dvec3& back, const glm::dvec3& up) {
     return {right, glm::cross(back, right), back};
 }
 
+/// What a perspective camera that is fitted sees at distance 1: half the size of the picture, less what is left free at
+/// its sides, and where its middle is.
+struct FittedView {
+    double kx, ky;
+    glm::dvec2 middle;
+};
+
 /// Places a perspective camera with orientation `axes` so that all points just fit, centred.
 ///
 /// In camera axes, a point p is inside if |p.x - e.x| <= kx (e.z - p.z), and the same in y. Each of
-/// these is linear in the eye e, so only four maxima over the points matter. No point comes nearer
+/// these is linear in the eye e, so only four maxima over the points matter. Where the lens is shifted, this holds of x
+/// and y after a shear along z. No point comes nearer
 /// than `nearest`: with a wide angle the eye would otherwise sit on the model's foremost corner.
-glm::dvec3 fitted_eye(const PointSource& points, const glm::dmat3& axes, double kx, double ky, double nearest) {
+glm::dvec3 fitted_eye(const PointSource& points, const glm::dmat3& axes, const FittedView& view, double nearest) {
     const glm::dmat3 to_axes = glm::transpose(axes);
     std::array<double, 5> most;  // the last one tells how far in front they are
     most.fill(-std::numeric_limits<double>::infinity());
-    const glm::dvec3 x = axes[0], y = axes[1], z = axes[2];
+    const double kx = view.kx, ky = view.ky;
+    const glm::dvec2 middle = view.middle;
+    const glm::dvec3 z = axes[2], x = axes[0] + middle.x * z, y = axes[1] + middle.y * z;
     const std::array<glm::dvec3, 5> along = {x + kx * z, -x + kx * z, y + ky * z, -y + ky * z, z};
     const auto needs = [&](const Box& box, bool) {
         const double slack =
@@ -72,39 +83,62 @@ glm::dvec3 fitted_eye(const PointSource& points, const glm::dmat3& axes, double 
     points({needs, [&](std::span<const glm::dvec3> some) {
                 std::array<double, 5> m = most;  // in registers
                 for (const glm::dvec3& p : some) {
-                    const glm::dvec3 q = to_axes * p;
+                    glm::dvec3 q = to_axes * p;
+                    q.x += middle.x * q.z;
+                    q.y += middle.y * q.z;
                     m = {std::max(m[0], q.x + kx * q.z), std::max(m[1], -q.x + kx * q.z),
                          std::max(m[2], q.y + ky * q.z), std::max(m[3], -q.y + ky * q.z), std::max(m[4], q.z)};
                 }
                 most = m;
             }});
     const double eye_z = std::max({(most[0] + most[1]) / (2 * kx), (most[2] + most[3]) / (2 * ky), most[4] + nearest});
-    return axes * glm::dvec3((most[0] - most[1]) / 2, (most[2] - most[3]) / 2, eye_z);
+    return axes *
+           glm::dvec3((most[0] - most[1]) / 2 - middle.x * eye_z, (most[2] - most[3]) / 2 - middle.y * eye_z, eye_z);
 }
 
 /// The distance from a target, along a direction, from which all points fit, none of them nearer
 /// than `nearest`.
-double fitted_distance(const PointSource& points, const glm::dvec3& target, const glm::dmat3& axes, double kx,
-                       double ky, double nearest) {
+double fitted_distance(const PointSource& points, const glm::dvec3& target, const glm::dmat3& axes,
+                       const FittedView& view, double nearest) {
+    const double right = view.kx + view.middle.x, left = view.kx - view.middle.x;
+    const double top = view.ky + view.middle.y, bottom = view.ky - view.middle.y;
+    if (!(right > 0 && left > 0 && top > 0 && bottom > 0)) {
+        throw InputError("the camera's shift moves its target out of the picture; give an eye, or no target");
+    }
     const glm::dmat3 to_axes = glm::transpose(axes);
-    const glm::dvec3 x = axes[0] / kx, y = axes[1] / ky, z = axes[2];
+    const glm::dvec3 z = axes[2];
+    const glm::dvec3 along[4] = {axes[0] / right + z, z - axes[0] / left, axes[1] / top + z, z - axes[1] / bottom};
+    const glm::dvec3 sides =
+        glm::abs(axes[0]) / std::min(right, left) + glm::abs(axes[1]) / std::min(top, bottom) + glm::abs(z);
     double distance = 0;
     const auto needs = [&](const Box& box, bool) {
         const Box seen{box.low - target, box.high - target};
         const glm::dvec3 size = largest_in(box) + glm::abs(target);
-        const double slack = kRoundingOfBoxes * (glm::dot(glm::abs(x) + glm::abs(y) + glm::abs(z), size) + nearest);
+        const double slack = kRoundingOfBoxes * (glm::dot(sides, size) + nearest);
         const double most =
-            std::max({farthest_along(x + z, seen), farthest_along(z - x, seen), farthest_along(y + z, seen),
-                      farthest_along(z - y, seen), farthest_along(z, seen) + nearest});
+            std::max({farthest_along(along[0], seen), farthest_along(along[1], seen), farthest_along(along[2], seen),
+                      farthest_along(along[3], seen), farthest_along(z, seen) + nearest});
         return !(most + slack <= distance);
     };
     points({needs, [&](std::span<const glm::dvec3> some) {
                 for (const glm::dvec3& p : some) {
                     const glm::dvec3 q = to_axes * (p - target);
-                    distance = std::max({distance, std::abs(q.x) / kx + q.z, std::abs(q.y) / ky + q.z, q.z + nearest});
+                    distance = std::max({distance, (q.x < 0 ? -q.x / left : q.x / right) + q.z,
+                                         (q.y < 0 ? -q.y / bottom : q.y / top) + q.z, q.z + nearest});
                 }
             }});
     return distance;
+}
+
+/// The visible height of an orthographic camera that all points fit to, which lie from `low` to `high` of its axis and
+/// need not be in the middle of the picture.
+double fitted_height(const glm::dvec2& low, const glm::dvec2& high, const CameraSettings& s, double aspect) {
+    const glm::dvec2 half = 0.5 * s.fit * glm::dvec2(aspect, 1);
+    if (!(glm::all(glm::greaterThan(half, glm::abs(s.shift))))) {
+        throw InputError("the camera's shift moves its target out of the picture; give a height, or no target");
+    }
+    const glm::dvec2 least = glm::max(high / (half + s.shift), -low / (half - s.shift));
+    return std::max(least.x, least.y);
 }
 
 void check(const CameraSettings& s) {
@@ -130,12 +164,34 @@ void check(const CameraSettings& s) {
     if (s.direction && glm::length(*s.direction) == 0) {
         throw InputError("the camera's direction is zero; give a vector towards the eye");
     }
+    if (!(std::abs(s.shift.x) <= kMostShift && std::abs(s.shift.y) <= kMostShift)) {
+        throw InputError("the camera's shift must be from -100 to 100 heights of the picture");
+    }
+    if (!(s.lens_radius >= 0 && s.lens_radius <= kMostCoordinate)) {
+        throw InputError("the radius of the camera's lens must be from 0 to 1e30");
+    }
+    if (s.focus && !(*s.focus > 0 && *s.focus <= kMostCoordinate)) {
+        throw InputError("the distance that the camera has in focus must be positive");
+    }
+    if (s.lens_radius > 0 && s.orthographic) throw InputError("an orthographic camera has no lens");
 }
 
 glm::dmat4 rigid(const glm::dmat3& axes, const glm::dvec3& eye) {
     glm::dmat4 matrix(axes);
     matrix[3] = glm::dvec4(eye, 1.0);
     return matrix;
+}
+
+/// Has the camera see through its lens. `target`: what is in focus if the settings do not say it.
+template <typename Target>
+void add_lens(const CameraSettings& s, const Target& target, Camera& camera) {
+    camera.shift = s.shift;
+    if (s.lens_radius == 0) return;
+    camera.lens_radius = s.lens_radius;
+    camera.focus = s.focus ? *s.focus : glm::dot(camera.eye() - target(), glm::dvec3(camera.to_world[2]));
+    if (!(camera.focus > 0)) {
+        throw InputError("the camera's lens has nothing in front of it that could be in focus; give the focus");
+    }
 }
 
 /// A camera given by a matrix: its scale is dropped.
@@ -167,11 +223,22 @@ glm::dmat4 Camera::to_view() const {
 Projection Camera::projection(int width, int height_px, double near_distance) const {
     Projection p;
     p.orthographic = orthographic;
-    p.center_px = 0.5 * (area.low + area.high) * glm::dvec2(width, height_px);
     const double own_px = height_px * (area.high.y - area.low.y);
+    p.shift_px = own_px * glm::dvec2(-shift.x, shift.y);
+    p.center_px = 0.5 * (area.low + area.high) * glm::dvec2(width, height_px) + p.shift_px;
     p.focal_px = orthographic ? own_px / height : 0.5 * own_px / std::tan(glm::radians(fov_deg) / 2);
     p.near_distance = near_distance;
     return p;
+}
+
+Camera from_lens_point(const Camera& camera, const glm::dvec2& point) {
+    Camera moved = camera;
+    const glm::dvec2 way = camera.lens_radius * point;
+    const glm::dmat3 axes(camera.to_world);
+    moved.to_world[3] = glm::dvec4(camera.eye() + way.x * axes[0] + way.y * axes[1], 1.0);
+    // In focus, a picture's height is 2 tan(fov / 2) focus long.
+    moved.shift -= way / (2 * std::tan(glm::radians(camera.fov_deg) / 2) * camera.focus);
+    return moved;
 }
 
 Box box_of(const PointSource& points) {
@@ -195,7 +262,12 @@ Camera resolve_camera(const CameraSettings& settings, const PointSource& points,
     check(settings);
     const glm::dvec2 share = settings.area.high - settings.area.low;
     aspect *= share.x / share.y;
-    if (settings.to_world) return from_matrix(settings);
+    if (settings.to_world) {
+        Camera camera = from_matrix(settings);
+        add_lens(
+            settings, [&] { return settings.target ? *settings.target : center_of(box_of(points)); }, camera);
+        return camera;
+    }
 
     const bool fits = !settings.eye || (settings.orthographic && !settings.height);
     const bool needs_bounds = fits || !settings.target;
@@ -230,7 +302,8 @@ Camera resolve_camera(const CameraSettings& settings, const PointSource& points,
     camera.fov_deg = settings.fov_deg;
     camera.area = settings.area;
     const double nearest = 0.05 * radius;
-    const double half_y = settings.fit * std::tan(glm::radians(settings.fov_deg) / 2);
+    const double half_fov = std::tan(glm::radians(settings.fov_deg) / 2), half_y = settings.fit * half_fov;
+    const FittedView view{half_y * aspect, half_y, 2 * half_fov * settings.shift};
     if (settings.orthographic) {
         const glm::dmat3 to_axes = glm::transpose(axes);
         glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
@@ -250,24 +323,31 @@ Camera resolve_camera(const CameraSettings& settings, const PointSource& points,
                         }
                     }});
         }
-        const glm::dvec2 center =
-            settings.target || settings.eye ? glm::dvec2(to_axes * settings.eye.value_or(target)) : 0.5 * (low + high);
-        const glm::dvec2 reach = glm::max(high - center, center - low);
-        camera.height = settings.height.value_or(2 * std::max(reach.y, reach.x / aspect) / settings.fit);
+        const bool is_placed = settings.target || settings.eye;
+        glm::dvec2 center = is_placed ? glm::dvec2(to_axes * settings.eye.value_or(target)) : 0.5 * (low + high);
+        if (is_placed && !settings.height && settings.shift != glm::dvec2(0.0)) {
+            camera.height = fitted_height(low - center, high - center, settings, aspect);
+        } else {
+            const glm::dvec2 reach = glm::max(high - center, center - low);
+            camera.height = settings.height.value_or(2 * std::max(reach.y, reach.x / aspect) / settings.fit);
+        }
+        if (!is_placed) center -= camera.height * settings.shift;
         const double depth = (to_axes * center_of(bounds)).z + 2 * radius;
         const glm::dvec3 eye = settings.eye.value_or(axes * glm::dvec3(center, depth));
         camera.to_world = rigid(axes, eye);
     } else if (settings.eye) {
         camera.to_world = rigid(axes, *settings.eye);
     } else if (settings.target) {
-        const double distance = fitted_distance(points, target, axes, half_y * aspect, half_y, nearest);
+        const double distance = fitted_distance(points, target, axes, view, nearest);
         camera.to_world = rigid(axes, target + back * distance);
     } else {
-        camera.to_world = rigid(axes, fitted_eye(points, axes, half_y * aspect, half_y, nearest));
+        camera.to_world = rigid(axes, fitted_eye(points, axes, view, nearest));
     }
     if (!is_reasonable(camera.eye()) || !(camera.height > 0)) {
         throw InputError("the camera cannot be fitted to the scene; give eye and target");
     }
+    add_lens(
+        settings, [&] { return target; }, camera);
     return camera;
 }
 

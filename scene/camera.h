@@ -30,6 +30,9 @@ struct CameraSettings {
     SourcePosition where;                 ///< in the scene file, for messages; can be unknown
     std::optional<glm::dmat4> to_world;   ///< instead of eye, target, up (cameras of glTF files)
     ViewArea area;                        ///< of the picture: what fov, height and fit are about
+    glm::dvec2 shift{0.0};                ///< of the lens, see Camera
+    double lens_radius = 0;               ///< world units; 0: all is in focus
+    std::optional<double> focus;          ///< distance in focus along the view axis; default: that of the target
 };
 
 /// A camera with nothing left open.
@@ -38,7 +41,12 @@ struct Camera {
     glm::dmat4 to_world{1.0};  ///< rigid: the columns are right, up, back and the eye's position
     double fov_deg = 35;       ///< perspective only
     double height = 1;         ///< orthographic only
-    ViewArea area;             ///< of the picture: fov and height are its, and the view axis meets its middle
+    ViewArea area;             ///< of the picture: fov and height are its, and the view axis meets its middle, unless
+    /// the lens is shifted: the picture shows what is so much farther to the right and up, in heights of the area,
+    /// while the camera looks where it did.
+    glm::dvec2 shift{0.0};
+    double lens_radius = 0;  ///< perspective only, world units; 0: all is in focus
+    double focus = 1;        ///< distance along the view axis that is in focus, if there is a lens
 
     glm::dvec3 eye() const { return glm::dvec3(to_world[3]); }
     /// World to view space.
@@ -46,6 +54,10 @@ struct Camera {
     /// How view space falls on a picture of width x height pixels. `near_distance` in world units.
     Projection projection(int width, int height, double near_distance) const;
 };
+
+/// The view from a point of the lens, given in radii to the right and up, that has what is in focus where the camera
+/// has it.
+Camera from_lens_point(const Camera& camera, const glm::dvec2& point);
 
 /// Is called with points, some at a time.
 struct PointVisitor {
@@ -75,7 +87,8 @@ Box box_of(const PointSource& points);
 ///
 /// Throws InputError (message without a place) for settings that define no view: eye = target, up
 /// along the view, a field of view outside of (0, 180), a height that is not positive, anything
-/// that is not finite, and a scene without extent that the camera should be fitted to.
+/// that is not finite, a scene without extent that the camera should be fitted to, and a lens of an orthographic camera
+/// or without anything in front of it that could be in focus.
 Camera resolve_camera(const CameraSettings& settings, const PointSource& points, double aspect);
 
 }  // namespace burin

@@ -14,6 +14,7 @@
 #include "scene/camera.h"
 #include "scene/method_settings.h"
 #include "scene/paper.h"
+#include "scene/shutter.h"
 #include "shading/line_style.h"
 #include "shading/surface/light.h"
 #include "shading/surface_shader.h"
@@ -91,6 +92,7 @@ struct Scene {
     PictureSettings picture;
     FrameSettings frame;
     CryptoSettings crypto;
+    std::optional<ShutterSettings> shutter;  ///< none: pictures show one moment
     LineSettings lines;
     /// How lines look; none: as `lines.style` says. What it says of finding lines stands in `lines`, too (use_sheet()).
     std::shared_ptr<const StyleSheet> sheet;

@@ -47,6 +47,7 @@ struct SceneDescription {
     std::vector<CameraKeys> camera_keys;  ///< one per camera
     PictureSettings picture;
     FrameSettings frame;
+    std::optional<ShutterSettings> shutter;
     std::vector<double> frame_range;  ///< the frames that the scene has; empty: it does not say
     std::optional<Turntable> turntable;
     std::uint64_t hash = 0;  ///< of what its tables say of all frames (hash_of_scene_tables())

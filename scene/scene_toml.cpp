@@ -22,6 +22,7 @@
 #include "scene/shape_toml.h"
 #include "scene/sheet_library.h"
 #include "scene/sheet_toml.h"
+#include "scene/shutter_toml.h"
 #include "scene/surfaces_toml.h"
 #include "scene/toml_depth.h"
 #include "scene/toml_reader.h"
@@ -79,6 +80,7 @@ class SceneReader {
         for (TomlReader& t : root_.tables("object")) read_object(t);
         if (auto t = root_.table("picture")) read_picture(*t);
         if (auto t = root_.table("frames")) read_frames(*t);
+        if (auto t = root_.table("shutter")) scene_.shutter = read_shutter(*t);
         if (auto t = root_.table("turntable")) scene_.turntable = read_turntable(*t);
         if (auto t = root_.table("crypto")) read_crypto(*t);
         if (auto t = root_.table("lines")) scene_.lines = read_line_settings(*t);
@@ -124,10 +126,23 @@ class SceneReader {
             }
             if (camera.height) camera.orthographic = true;
             camera.fit = t.number("fit", {0, 1, true, false}).value_or(0.95);
+            read_lens(t, camera);
             scene_.camera_keys.push_back(read_camera_keys(t, camera));
             t.finish();
             scene_.cameras.push_back(camera);
         }
+    }
+
+    static void read_lens(TomlReader& t, CameraSettings& camera) {
+        if (const auto shift = t.numbers("shift", 2)) {
+            camera.shift = {(*shift)[0], (*shift)[1]};
+            if (std::max(std::abs(camera.shift.x), std::abs(camera.shift.y)) > 100) {
+                t.fail("shift", "must be from -100 to 100 heights of the picture");
+            }
+        }
+        camera.lens_radius = t.number("lens_radius", {0, 1e30}).value_or(0);
+        camera.focus = t.number("focus", kPositive);
+        if (camera.orthographic && camera.lens_radius > 0) t.fail("lens_radius", "an orthographic camera has no lens");
     }
 
     void read_material(TomlReader& t) {

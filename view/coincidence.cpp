@@ -103,7 +103,7 @@ bool are_beside(const ScreenPolygon& a, const ScreenPolygon& b) {
 Region common_region(const Projection& projection, const ScreenPolygon& a, const ScreenPolygon& b) {
     Region common(a);
     common.clip(Region(b));
-    const glm::dvec2 size = 2.0 * projection.center_px, right(size.x, 0), below(0, size.y);
+    const glm::dvec2 size = 2.0 * (projection.center_px - projection.shift_px), right(size.x, 0), below(0, size.y);
     Region seen = common;
     for (const auto& [from, to] :
          {std::pair{glm::dvec2(0.0), right}, {right, size}, {size, below}, {below, glm::dvec2(0.0)}})

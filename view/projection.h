@@ -18,6 +18,8 @@ struct Projection {
     glm::dvec2 center_px{0.0};  ///< where the view axis meets the screen
     /// What is nearer than this (or behind the eye) is cut away. World units.
     double near_distance = 0;
+    /// By how much center_px is off the middle of the picture, or of the part of it that the view fills.
+    glm::dvec2 shift_px{0.0};
 
     glm::dvec2 to_pixel(const glm::dvec3& view) const {
         const double scale = orthographic ? focal_px : focal_px / -view.z;

@@ -42,7 +42,8 @@ std::string Fingerprints::of(const SceneChange& places, const std::vector<Camera
     for (const Camera& camera : cameras) {
         add(camera.to_world, hash);
         hash.add(camera.orthographic ? -camera.height : camera.fov_deg);
-        for (const glm::dvec2& corner : {camera.area.low, camera.area.high}) hash.add(corner.x).add(corner.y);
+        for (const glm::dvec2& two : {camera.area.low, camera.area.high, camera.shift}) hash.add(two.x).add(two.y);
+        if (camera.lens_radius > 0) hash.add(camera.lens_radius).add(camera.focus);
     }
     for (const std::string& file : files) add_content(file, hash);
     // An EXR says which part of the picture it has.

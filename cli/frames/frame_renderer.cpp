@@ -27,6 +27,9 @@
 namespace burin {
 namespace {
 
+/// Of a blurred frame: keys of animations change what is there at some of them.
+constexpr int kTimesOfFingerprint = 16;
+
 /// Refuses hidden lines that the command line asks for with a method that has none: only the A-buffer keeps the
 /// surfaces behind the first. Returns whether the scene asks for hidden lines.
 bool refuse_hidden_lines(const Arguments& a, const Method& method, Scene& scene) {
@@ -129,7 +132,8 @@ FrameRenderer::FrameRenderer(const Arguments& a, const Method& method, LoadedInp
       animation_(std::move(input.animation)),
       fingerprints_(plan.is_sequence || a.skips_existing ? std::optional<Fingerprints>(std::in_place, a, input)
                                                          : std::nullopt),
-      posed_(std::move(input.scene), a, method, plan.frames.size()) {
+      is_blurred_(a.shutter || input.scene.shutter),
+      posed_(std::move(input.scene), a, method, plan.frames.size() + (is_blurred_ ? 1 : 0)) {
     const Stopwatch watch;
     Scene& scene = posed_.scene();
     scene.frame.is_of_sequence = plan.is_sequence;
@@ -142,7 +146,10 @@ FrameRenderer::FrameRenderer(const Arguments& a, const Method& method, LoadedInp
         const std::vector<CameraSettings> first =
             has_range ? animation_.at(input.frame_range.front()).cameras : std::vector<CameraSettings>();
         job_camera_.emplace(scene, first.empty() ? scene.cameras : first, points, input.turntable, a);
+        camera_ = job_camera_->at(first.empty() ? scene.cameras : first, scene.picture, plan.frames.front());
     }
+    const bool moves = !plan.is_at_rest && (animation_.moves() || input.turntable);
+    blur_ = blur_of(scene, camera_, a, moves, is_vector(output.format));
     pose_s_ = watch.seconds();
 }
 
@@ -151,14 +158,28 @@ std::string FrameRenderer::fingerprint_of(double frame) const {
     SceneChange places;
     if (!plan_.is_at_rest) places = animation_.places_at(frame);
     places.frame = frame;
+    std::vector<std::string> files = animation_.files_at(frame);
     std::vector<Camera> cameras;
     for (const ViewOnSheet& view : views_) cameras.push_back(view.camera);
     if (views_.empty()) {
         const Scene& scene = posed_.scene();
-        const bool has_own = !places.cameras.empty();
-        cameras.push_back(job_camera_->at(has_own ? places.cameras : first_cameras_, scene.picture, frame));
+        const auto add_camera = [&](const SceneChange& change) {
+            const bool has_own = !change.cameras.empty();
+            cameras.push_back(job_camera_->at(has_own ? change.cameras : first_cameras_, scene.picture, change.frame));
+        };
+        add_camera(places);
+        for (const SubFrame& sub :
+             blur_.shutter ? sub_frames(&*blur_.shutter, false, kTimesOfFingerprint) : std::vector<SubFrame>()) {
+            SceneChange change = animation_.places_at(frame + sub.time);
+            change.frame = frame + sub.time;
+            places.to_world.insert(places.to_world.end(), change.to_world.begin(), change.to_world.end());
+            add_camera(change);
+            for (std::string& file : animation_.files_at(change.frame)) {
+                if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(std::move(file));
+            }
+        }
     }
-    return fingerprints_->of(places, cameras, animation_.files_at(frame), format_);
+    return fingerprints_->of(places, cameras, files, format_);
 }
 
 bool FrameRenderer::is_there(double frame, const std::string& fingerprint, std::string& note) const {
@@ -217,11 +238,33 @@ LayerSet FrameRenderer::layers_of_first_frame(const OutputOptions& output, bool&
     return layers_of_picture(frame_of(scene(), camera_, arguments_, &posed_.prepared()), output, in_bands);
 }
 
+Moment FrameRenderer::moment_at(double number, double time, MomentUse use) {
+    if (blur_.shutter) {
+        if (use == MomentUse::extent) posed_.put_back();
+        SceneChange change = change_at(number + time);
+        for (const std::string& text : change.notes) note(text);
+        posed_.pose(std::move(change));
+        camera_ = job_camera_->at(scene());
+        posed_.scene().frame.number = number;  // looks are those of one frame
+        if (use == MomentUse::drawing) posed_.make_ready(camera_);
+    }
+    return {&scene(), camera_, &posed_.prepared()};
+}
+
 DrawnFrame FrameRenderer::draw(const OutputOptions& output, Progress* progress) {
     Stopwatch watch;
     DrawnFrame drawn;
     drawn.number = scene().frame.number;
     drawn.output = output;
+    const MomentAt moments = [this, number = drawn.number](double time, MomentUse use) {
+        return moment_at(number, time, use);
+    };
+    const PictureSettings& picture = scene().picture;
+    drawn.sub_frames = sub_frame_count(blur_, moments, picture.width, picture.height);
+    // What the frame says of itself is that of the middle.
+    if (blur_.shutter) {
+        moments(drawn.sub_frames > 1 ? middle_sub_frame(&*blur_.shutter).time : 0, MomentUse::drawing);
+    }
     drawn.frame = frame_of(scene(), camera_, arguments_, &posed_.prepared());
     drawn.times.load_s = std::exchange(pose_s_, 0) + watch.lap();
     bool in_bands = false;
@@ -231,6 +274,7 @@ DrawnFrame FrameRenderer::draw(const OutputOptions& output, Progress* progress) 
     if (layers.motion) find_next(drawn.frame);
     const Frame& frame = drawn.frame;
     if (is_first_) note_limits(arguments_, frame, method_, has_hidden_lines_, output);
+    in_bands = in_bands && drawn.sub_frames == 1;
     drawn.film = std::make_unique<Film>(make_film(frame, layers, in_bands, is_vector(output.format), output.path));
     RunOptions run{arguments_.threads, progress, arguments_.memory_bytes};
     if (in_bands) {
@@ -290,6 +334,12 @@ void FrameRenderer::find_next(Frame& frame) {
 }
 
 RenderStats FrameRenderer::draw_picture(const Frame& frame, const RunOptions& run, Film& film, DrawnFrame& drawn) {
+    if (drawn.sub_frames > 1) {
+        const MomentAt moments = [this, number = drawn.number](double time, MomentUse use) {
+            return moment_at(number, time, use);
+        };
+        return render_blurred(method_, blur_, drawn.sub_frames, moments, frame.width, frame.height, run, film);
+    }
     const SheetViews sheet{posed_.scene(), arguments_, views_, &posed_.prepared()};
     if (!is_vector(drawn.output.format))
         return views_.empty() ? method_.render(frame, run, film) : sheet.draw(method_, run, film);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/arguments.h"
+#include "cli/blur.h"
 #include "cli/frames/fingerprint.h"
 #include "cli/frames/frame_plan.h"
 #include "cli/frames/posed_scene.h"
@@ -25,6 +26,7 @@ struct DrawnFrame {
     std::unique_ptr<BandWriter> bands;       ///< set if an EXR was written while it was drawn, but for its name
     VectorDrawing drawing;                   ///< of vector files
     StageTimes times;
+    int sub_frames = 1;                  ///< whose mean it is
     std::vector<double> skipped_behind;  ///< frames that come next and are there already
 
     /// Writes the file, which appears under its name when it is complete. Throws InputError.
@@ -64,6 +66,8 @@ class FrameRenderer {
     LayerSet layers_of_picture(const Frame& frame, const OutputOptions& output, bool& in_bands) const;
     RenderStats draw_picture(const Frame& frame, const RunOptions& run, Film& film, DrawnFrame& drawn);
     void find_next(Frame& frame);
+    /// The scene at a time within the frame in work.
+    Moment moment_at(double number, double time, MomentUse use);
     void note(const std::string& text);
 
     const Arguments& arguments_;
@@ -73,9 +77,11 @@ class FrameRenderer {
     SceneAnimation animation_;
     std::optional<Fingerprints> fingerprints_;
     bool has_hidden_lines_ = false;
+    bool is_blurred_;  // by what moves, if anything does
     std::optional<JobCamera> job_camera_;
     PosedScene posed_;
     std::vector<ViewOnSheet> views_;
+    Blur blur_;
     std::vector<CameraSettings> first_cameras_;  // at rest
     Camera camera_;
     SceneChange next_change_;  // one frame later, for the layer `motion`

@@ -20,6 +20,8 @@ class PosedScene {
 
     /// Puts the scene into a frame, as it is loaded: nothing that the last one was made ready with is left.
     void pose(SceneChange&& change);
+    /// Puts back what it was made ready with, so that meshes have the vertices that they were loaded with.
+    void put_back();
     /// Makes it ready to be seen by a camera.
     void make_ready(const Camera& camera);
 
@@ -30,7 +32,6 @@ class PosedScene {
     const PreparedScene& prepared() const { return prepared_; }
 
   private:
-    void put_back();
     void prepare();
 
     Scene scene_;

@@ -34,6 +34,8 @@ Camera FittedCamera::at(const CameraSettings& settings, double frame) const {
         if (!filled.eye) filled.eye = camera_.eye();
         if (!filled.target) filled.target = target_;
         if (filled.orthographic && !filled.height) filled.height = camera_.height;
+        // Without a target, what is in focus stays as far away as it was.
+        if (!filled.focus && !settings.target && camera_.lens_radius > 0) filled.focus = camera_.focus;
         camera = resolve_camera(
             filled, [](const PointVisitor&) {}, aspect_);
     }

@@ -104,15 +104,22 @@ TEST(Arguments, EveryNumberOfAViewIsChecked) {
     for (const double bad : {kNaN, kInfinity, -kInfinity, -1.0, 1e300}) {
         expect_refused([&](burin_view& v) { v.fov_deg = bad; }, "fov_deg");
         expect_refused([&](burin_view& v) { v.ortho_height = bad; }, "ortho_height");
-        expect_refused([&](burin_view& v) { v.shift[0] = bad; }, "shift");
-        expect_refused([&](burin_view& v) { v.shift[1] = bad; }, "shift");
+        const double far_off = bad == -1 ? 101 : bad;
+        expect_refused([&](burin_view& v) { v.shift[0] = far_off; }, "shift");
+        expect_refused([&](burin_view& v) { v.shift[1] = far_off; }, "shift");
         expect_refused([&](burin_view& v) { v.pixel_aspect = bad; }, "pixel_aspect");
         for (int i = 0; i < 16; ++i)
             expect_refused([&](burin_view& v) { v.camera_to_world[i] = std::abs(bad) == 1 ? kNaN : bad; },
                            "camera_to_world");
     }
     expect_refused([](burin_view& v) { v.fov_deg = 180; }, "fov_deg");
-    expect_refused([](burin_view& v) { v.shift[0] = 0.25; }, "shift");
+    expect_refused(
+        [](burin_view& v) {
+            std::fill_n(v.camera_to_world, 16, 0.0);
+            v.fov_deg = 0;
+            v.shift[0] = 0.25;
+        },
+        "shift");
     expect_refused([](burin_view& v) { v.pixel_aspect = 2; }, "pixel_aspect");
     for (const int bad : {1000000001, -1000000001, std::numeric_limits<int>::min()})
         expect_refused([&](burin_view& v) { v.frame = bad; }, "frame");

@@ -1,0 +1,175 @@
+#include "methods/blurred_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/limit_error.h"
+#include "render/blur_extent.h"
+#include "render/blur_sums.h"
+
+namespace burin {
+namespace {
+
+/// Straight parts that the way of a place is measured by.
+constexpr int kPartsOfWay = 4;
+
+const ShutterSettings* shutter_of(const Blur& blur) { return blur.shutter ? &*blur.shutter : nullptr; }
+
+bool all_have_mean(const std::vector<ChannelFormat>& channels) {
+    return std::all_of(channels.begin(), channels.end(), has_mean);
+}
+bool any_has_mean(const std::vector<ChannelFormat>& channels) {
+    return std::any_of(channels.begin(), channels.end(), has_mean);
+}
+
+/// Of sums, and of a picture that is summed.
+std::size_t bytes_per_row(const Film& film) {
+    std::size_t bytes = 0;
+    for (const ChannelFormat& channel : film.channels())
+        bytes += has_mean(channel) ? sizeof(float) + size_of(channel.type) : 0;
+    return bytes * static_cast<std::size_t>(film.crop().width());
+}
+
+/// The rows that are summed at once: under a cap for memory, so many that this takes no more than half of it.
+std::vector<PixelRect> bands_of(const Film& film, const RunOptions& options) {
+    const PixelRect all = film.crop();
+    if (!any_has_mean(film.channels())) return {};
+    int height = all.height();
+    if (options.memory_bytes > 0) {
+        const auto rows = options.memory_bytes / 2 / bytes_per_row(film) / Film::kBandRows * Film::kBandRows;
+        height = static_cast<int>(std::clamp<std::uint64_t>(rows, Film::kBandRows, static_cast<std::uint64_t>(height)));
+    }
+    std::vector<PixelRect> bands;
+    for (int y = all.y0; y < all.y1; y += height) bands.push_back({all.x0, y, all.x1, std::min(all.y1, y + height)});
+    return bands;
+}
+
+/// Draws sub-frames of one picture.
+class BlurredFrame {
+  public:
+    BlurredFrame(const Method& method, const Blur& blur, const MomentAt& moment_at, int width, int height,
+                 const RunOptions& options, Film& film)
+        : method_(method),
+          blur_(blur),
+          moment_at_(moment_at),
+          width_(width),
+          height_(height),
+          options_(options),
+          film_(film),
+          layers_(layers_with_mean(film.layers())) {
+        progress_ = std::exchange(options_.progress, nullptr);
+        options_.finished_band = nullptr;
+        options_.found_lines = nullptr;
+    }
+
+    RenderStats draw(int count) {
+        if (progress_ != nullptr) progress_->begin("rendering", sub_frames_drawn(count, options_, film_));
+        if (!all_have_mean(film_.channels())) {
+            draw_frame(frame_of(middle_sub_frame(shutter_of(blur_)), film_.crop()), film_, options_);
+        }
+        const std::vector<SubFrame> subs = sub_frames(shutter_of(blur_), blur_.has_lens, count);
+        for (const PixelRect& rows : bands_of(film_, options_)) draw_mean(subs, rows);
+        return std::move(stats_);
+    }
+
+  private:
+    Frame frame_of(const SubFrame& sub, PixelRect rows) {
+        const Moment moment = moment_at_(sub.time, MomentUse::drawing);
+        const Camera camera = sub.lens == glm::dvec2(0.0) ? moment.camera : from_lens_point(moment.camera, sub.lens);
+        return make_frame(*moment.scene, camera, width_, height_, rows, moment.prepared);
+    }
+
+    void draw_frame(const Frame& frame, Film& film, const RunOptions& options) {
+        add(method_.render(frame, options, film), stats_);
+        if (progress_ != nullptr) progress_->advance();
+    }
+
+    void draw_mean(const std::vector<SubFrame>& subs, PixelRect rows) {
+        std::optional<Frame> frame = frame_of(subs.front(), rows);
+        const LineClassSet classes = frame->criteria.classes;
+        const bool in_bands = method_.finishes_in_bands != nullptr && method_.finishes_in_bands(*frame);
+        Film film = in_bands ? Film::in_bands(film_.display(), rows, layers_, classes)
+                             : Film(film_.display(), rows, layers_, classes);
+        BlurSums sums(rows, film.channels());
+        RunOptions options = options_;
+        if (options.memory_bytes > 0) {
+            const std::uint64_t taken = bytes_per_row(film_) * static_cast<std::uint64_t>(rows.height());
+            options.memory_bytes -= std::min(options.memory_bytes / 2, taken);
+        }
+        if (in_bands) {
+            options.finished_band = [&](std::size_t band) {
+                sums.add(film.band(band));
+                film.close(band);
+            };
+        }
+        for (std::size_t i = 0; i < subs.size(); ++i) {
+            if (i > 0) {
+                frame.reset();  // it borrows the moment before
+                frame = frame_of(subs[i], rows);
+            }
+            try {
+                draw_frame(*frame, film, options);
+            } catch (const LimitError& error) {
+                throw LimitError(error.what() + std::string("; a blurred one takes twice that"));
+            }
+            if (!in_bands) sums.add(film.image(), options.threads);
+        }
+        sums.put_mean(static_cast<int>(subs.size()), film_.image(), options.threads);
+    }
+
+    static void add(const RenderStats& more, RenderStats& sum) {
+        for (double RenderStats::*stage : {&RenderStats::prepare_s, &RenderStats::raster_s, &RenderStats::resolve_s,
+                                           &RenderStats::lines_s, &RenderStats::shade_s, &RenderStats::write_s})
+            sum.*stage += more.*stage;
+        sum.triangles = more.triangles;
+        sum.fragments += more.fragments;
+        sum.threads = more.threads;
+        for (const std::string& note : more.notes) {
+            if (std::find(sum.notes.begin(), sum.notes.end(), note) == sum.notes.end()) sum.notes.push_back(note);
+        }
+    }
+
+    const Method& method_;
+    const Blur& blur_;
+    const MomentAt& moment_at_;
+    int width_, height_;
+    RunOptions options_;
+    Film& film_;
+    Progress* progress_;
+    LayerSet layers_;
+    RenderStats stats_;
+};
+
+}  // namespace
+
+int sub_frame_count(const Blur& blur, const MomentAt& moment_at, int width, int height) {
+    if (!blur.is_asked_for()) return 1;
+    if (blur.samples) return *blur.samples;
+    double way_px = 0, circle_px = 0;
+    BlurExtent extent(width, height);
+    const auto look_at = [&](double time) {
+        const Moment moment = moment_at(time, MomentUse::extent);
+        extent.add(*moment.scene, moment.camera);
+        circle_px = std::max(circle_px, extent.circle_px());
+    };
+    if (blur.shutter) {
+        for (int i = 0; i <= kPartsOfWay; ++i)
+            look_at(blur.shutter->open + (blur.shutter->close - blur.shutter->open) * i / kPartsOfWay);
+        way_px = extent.way_px();
+    } else {
+        look_at(0);
+    }
+    return automatic_sub_frames(way_px, blur.has_lens ? circle_px : 0);
+}
+
+RenderStats render_blurred(const Method& method, const Blur& blur, int count, const MomentAt& moment_at, int width,
+                           int height, const RunOptions& options, Film& film) {
+    return BlurredFrame(method, blur, moment_at, width, height, options, film).draw(count);
+}
+
+std::size_t sub_frames_drawn(int count, const RunOptions& options, const Film& film) {
+    return bands_of(film, options).size() * static_cast<std::size_t>(count) + (all_have_mean(film.channels()) ? 0 : 1);
+}
+
+}  // namespace burin

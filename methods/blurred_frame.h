@@ -1,0 +1,51 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "render/method.h"
+#include "render/sub_frames.h"
+
+// Motion blur and depth of field, by any method: sub-frames are drawn one after the other, and their mean is the frame.
+
+namespace burin {
+
+/// A scene as it is at one time, and the camera that sees it.
+struct Moment {
+    const Scene* scene = nullptr;
+    Camera camera;
+    const PreparedScene* prepared = nullptr;  ///< of the scene; nullptr: nothing is prepared
+};
+
+/// What a Moment is wanted for.
+enum class MomentUse : std::uint8_t {
+    drawing,
+    extent,  ///< only places are looked at, so that nothing need be prepared
+};
+
+/// Gives the scene at a time, in frames relative to the frame; it is valid until the next call.
+using MomentAt = std::function<Moment(double time, MomentUse use)>;
+
+/// How a frame is blurred.
+struct Blur {
+    std::optional<ShutterSettings> shutter;  ///< none: nothing moves while it is open
+    bool has_lens = false;
+    std::optional<int> samples;  ///< sub-frames; none: as many as the picture needs
+
+    bool is_asked_for() const { return shutter || has_lens; }
+};
+
+/// How many sub-frames a picture of this size has. 1: it is drawn as without blur, at the frame's own time.
+int sub_frame_count(const Blur& blur, const MomentAt& moment_at, int width, int height);
+
+/// Draws a frame as the mean of `count` sub-frames, 2 or more. What has no mean (depth, normals, ids) is that of the
+/// middle of shutter and lens. `film` lies in memory as a whole; `width` and `height` are those of the whole picture.
+/// Sums take 4 bytes per pixel and channel that has a mean; under a cap for memory they are made for some rows after
+/// the other. Progress counts sub-frames.
+RenderStats render_blurred(const Method& method, const Blur& blur, int count, const MomentAt& moment_at, int width,
+                           int height, const RunOptions& options, Film& film);
+
+/// How many pictures render_blurred() draws.
+std::size_t sub_frames_drawn(int count, const RunOptions& options, const Film& film);
+
+}  // namespace burin
