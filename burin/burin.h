@@ -183,6 +183,9 @@ typedef struct burin_options {
      * returns 0 to go on and anything else to stop. It must not use the scene, but for burin_cancel(). NULL: none. */
     int (*progress)(double done, void* user);
     void* user; /**< for `progress` */
+    int32_t for_paths; /**< of burin_find_lines(), not 0: a drawing can be written as a vector file without a style
+                            sheet, too: the look of the scene then counts as one, which draws the same lines, though
+                            not to the bit */
 } burin_options;
 
 /** Channels of pixels, independent of the scene. */
@@ -218,6 +221,8 @@ BURIN_API const char* burin_picture_note(const burin_picture* picture, int index
 BURIN_API const void* burin_channel(const burin_picture* picture, const char* name, int32_t* type, int32_t size[2]);
 /** The name of channel `index`, from 0; NULL behind the last one, which is no failure. */
 BURIN_API const char* burin_channel_name(const burin_picture* picture, int index);
+/** The size of the whole picture in pixels, whatever the crop: `size` gets width and height. */
+BURIN_API int burin_picture_size(const burin_picture* picture, int32_t size[2]);
 /** The whole picture as a display shows it, 8 bits per value, sRGB: width x height x channels bytes, row by row from
  * the top. `channels`: 1 grey, 3 red green blue, both over the scene's background or white paper; 4 with alpha, which
  * is not multiplied in. Pixels outside of the crop are background. Needs the layer `beauty`. */

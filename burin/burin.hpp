@@ -97,6 +97,7 @@ struct Options {
     std::string layers{};
     /// Gets the part that is done. Returns true to stop. What it throws stops, too, and comes out of the call.
     std::function<bool(double)> progress{};
+    bool for_paths = false;
 };
 
 /// The bytes of a file of a picture or a drawing.
@@ -155,7 +156,6 @@ class Picture {
     static int type_of(float) { return BURIN_FLOAT; }
     static int type_of(std::uint16_t) { return BURIN_HALF; }
     static int type_of(std::uint32_t) { return BURIN_UINT32; }
-
     struct Free {
         void operator()(burin_picture* picture) const noexcept { burin_picture_free(picture); }
     };
@@ -256,7 +256,6 @@ class Drawing {
     static int type_of(std::uint32_t) { return BURIN_UINT32; }
     static int type_of(std::uint16_t) { return BURIN_UINT16; }
     static int type_of(std::uint8_t) { return BURIN_UINT8; }
-
     struct Free {
         void operator()(burin_drawing* drawing) const noexcept { burin_drawing_free(drawing); }
     };
@@ -482,7 +481,8 @@ class Scene {
                            .memory_bytes = options.memory_bytes,
                            .layers = options.layers.empty() ? nullptr : options.layers.c_str(),
                            .progress = options.progress ? &Teller::tell : nullptr,
-                           .user = &teller};
+                           .user = &teller,
+                           .for_paths = options.for_paths};
         auto* const result = work(get(), &v, &o);
         if (result == nullptr && teller.thrown) std::rethrow_exception(teller.thrown);
         return checked(result);

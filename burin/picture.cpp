@@ -97,6 +97,16 @@ const char* burin_picture_note(const burin_picture* picture, int index) {
     return guarded_pointer([&]() -> const char* { return note_at(required(picture, "picture").notes, index); });
 }
 
+int burin_picture_size(const burin_picture* picture, int32_t size[2]) {
+    return guarded([&] {
+        const PixelRect display = required(picture, "picture").film.image().display();
+        required(size, "size");
+        size[0] = display.width();
+        size[1] = display.height();
+        return int{BURIN_DONE};
+    });
+}
+
 int burin_pixels(const burin_picture* picture, uint8_t* out, int channels) {
     return guarded([&] {
         const Image& image = image_with_beauty(required(picture, "picture"));

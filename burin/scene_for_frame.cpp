@@ -11,6 +11,7 @@
 #include "render/copied_objects.h"
 #include "render/picture_notes.h"
 #include "scene/paper_camera.h"
+#include "scene/plain_sheet.h"
 
 namespace burin {
 
@@ -22,6 +23,10 @@ SceneForFrame::SceneForFrame(burin_scene& state, const burin_view& view, const O
     scene_.lines = settings.lines;
     scene_.sheet = settings.sheet;
     scene_.line_shaders = state.line_shaders;
+    if (options.for_paths && !scene_.sheet) {
+        scene_.sheet = std::make_shared<const StyleSheet>(plain_sheet(scene_.lines));
+        scene_.names_lines = true;
+    }
     scene_.surfaces = settings.surfaces;
     scene_.lights = settings.lights;
     scene_.abuffer = settings.abuffer;

@@ -134,6 +134,7 @@ OptionsInput checked_options(const burin_options& options) {
     }
     input.progress = options.progress;
     input.user = options.user;
+    input.for_paths = options.for_paths != 0;
     return input;
 }
 

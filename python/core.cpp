@@ -1,0 +1,371 @@
+// burin._core: scenes, pictures and drawings of the library for Python, with arrays of NumPy. The package around it
+// (python/burin) says what users call; here is only what needs C++. Nothing is checked here that the library checks.
+#include <burin/burin.hpp>
+
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <limits>
+#include <optional>
+
+namespace py = pybind11;
+
+namespace {
+
+using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
+using Integers = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
+
+template <typename T>
+std::span<const T> span_of(const std::optional<py::array_t<T, py::array::c_style | py::array::forcecast>>& array) {
+    if (!array) return {};
+    return {array->data(), static_cast<std::size_t>(array->size())};
+}
+
+/// Arrays of one mesh; burin._mesh has brought them to these types and shapes.
+int add_mesh(burin::Scene& scene, const std::string& name, const Floats& points, const Integers& corners,
+             const std::optional<Integers>& polygon_sizes, const std::optional<Integers>& polygon_materials,
+             const std::optional<Integers>& polygon_objects, std::vector<std::string> object_names,
+             const std::optional<Integers>& marked_edges, const std::optional<Floats>& corner_uv,
+             const std::optional<Floats>& point_colors, const std::map<std::string, Floats>& attributes) {
+    burin::Mesh mesh;
+    mesh.name = name;
+    mesh.points = {points.data(), static_cast<std::size_t>(points.size())};
+    mesh.corners = {corners.data(), static_cast<std::size_t>(corners.size())};
+    mesh.polygon_sizes = span_of(polygon_sizes);
+    mesh.polygon_materials = span_of(polygon_materials);
+    mesh.polygon_objects = span_of(polygon_objects);
+    mesh.object_names = std::move(object_names);
+    mesh.marked_edges = span_of(marked_edges);
+    mesh.corner_uv = span_of(corner_uv);
+    mesh.point_colors = span_of(point_colors);
+    for (const auto& [attribute, values] : attributes)
+        mesh.attributes.emplace_back(attribute, std::span(values.data(), static_cast<std::size_t>(values.size())));
+    const py::gil_scoped_release others_run;
+    return scene.add_mesh(mesh);
+}
+
+/// A call that draws: other threads of Python run meanwhile, Ctrl-C stops it, and so does `progress` by returning True.
+struct Work {
+    burin::View view;
+    burin::Options options;
+
+    Work(std::array<int, 2> size, std::array<std::int32_t, 4> crop, int samples, const std::string& camera,
+         const burin::Matrix& camera_to_world, double fov_deg, double ortho_height, int frame, int threads,
+         std::uint64_t memory_bytes, const std::string& layers, bool for_paths, py::object progress) {
+        view.width = size[0];
+        view.height = size[1];
+        view.crop = crop;
+        view.samples = samples;
+        view.camera = camera;
+        view.camera_to_world = camera_to_world;
+        view.fov_deg = fov_deg;
+        view.ortho_height = ortho_height;
+        view.frame = frame;
+        options.threads = threads;
+        options.memory_bytes = memory_bytes;
+        options.layers = layers;
+        options.for_paths = for_paths;
+        options.progress = [progress = std::move(progress)](double done) {
+            const py::gil_scoped_acquire python;
+            if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+            return !progress.is_none() && py::cast<bool>(py::bool_(progress(done)));
+        };
+    }
+};
+
+/// The values of variables at places on lines: an array each, of three columns for a triple such as N.
+py::dict columns_of(const burin::LineSamples& in, const std::vector<std::string>& names) {
+    const auto find = [&](const std::string& name) -> std::optional<std::span<const float>> {
+        try {
+            return in.column(name);
+        } catch (const burin::Error&) {
+            return std::nullopt;
+        }
+    };
+    py::dict columns;
+    for (const std::string& name : names) {
+        const auto count = static_cast<py::ssize_t>(in.count());
+        if (const auto values = find(name)) {
+            columns[py::str(name)] = Floats(count, values->data());
+            continue;
+        }
+        const char* const parts = find(name + ".x") ? "xyz" : "rgb";
+        Floats triple({count, py::ssize_t{3}});
+        for (py::ssize_t c = 0; c < 3; ++c) {
+            const std::span<const float> values = in.column(name + '.' + parts[c]);
+            for (py::ssize_t i = 0; i < count; ++i) triple.mutable_at(i, c) = values[static_cast<std::size_t>(i)];
+        }
+        columns[py::str(name)] = triple;
+    }
+    return columns;
+}
+
+/// What a function of Python returned: an array, or one number for all places.
+void copy_returned(const py::handle& from, std::span<float> to) {
+    const auto values = py::cast<Floats>(from);
+    if (values.size() != 1 && values.size() != static_cast<py::ssize_t>(to.size()))
+        throw std::runtime_error("returned " + std::to_string(values.size()) + " values for " +
+                                 std::to_string(to.size()) + " places");
+    for (std::size_t i = 0; i < to.size(); ++i) to[i] = values.data()[values.size() == 1 ? 0 : i];
+}
+
+/// A function of Python that line shaders and line tests call.
+class PythonFunction {
+  public:
+    PythonFunction(std::vector<std::string> variables, py::function function)
+        : variables_(std::move(variables)), function_(std::move(function)) {}
+    PythonFunction(const PythonFunction&) = delete;
+    PythonFunction& operator=(const PythonFunction&) = delete;
+    ~PythonFunction() {
+        const py::gil_scoped_acquire python;
+        function_ = py::function();
+    }
+    std::string needs() const {
+        std::string text;
+        for (const std::string& name : variables_) text += (text.empty() ? "" : ", ") + name;
+        return text;
+    }
+    template <typename... More>
+    py::object operator()(const burin::LineSamples& in, const More&... more) const {
+        return function_(columns_of(in, variables_), more...);
+    }
+
+  private:
+    std::vector<std::string> variables_;
+    py::function function_;
+};
+
+class PythonLineShader final : public burin::LineShader {
+  public:
+    PythonLineShader(std::vector<std::string> variables, py::function function)
+        : function_(std::move(variables), std::move(function)) {}
+    std::string needs() const override { return function_.needs(); }
+    void shade(const burin::LineSamples& in, burin::LineInk& out) const override {
+        const py::gil_scoped_acquire python;
+        const std::pair<const char*, std::span<float>> inks[] = {
+            {"width", out.width_px}, {"offset", out.offset_px}, {"opacity", out.opacity},
+            {"red", out.red},        {"green", out.green},      {"blue", out.blue}};
+        py::dict ink;
+        for (const auto& [name, values] : inks)
+            ink[name] = Floats(static_cast<py::ssize_t>(values.size()), values.data());
+        const py::object result = function_(in, ink);
+        const py::dict changed = result.is_none() ? ink : py::cast<py::dict>(result);
+        for (const auto& [name, values] : inks) {
+            if (changed.contains(name)) copy_returned(changed[name], values);
+        }
+    }
+
+  private:
+    PythonFunction function_;
+};
+
+class PythonLineTest final : public burin::LineTest {
+  public:
+    PythonLineTest(std::vector<std::string> variables, py::function function)
+        : function_(std::move(variables), std::move(function)) {}
+    std::string needs() const override { return function_.needs(); }
+    void test(const burin::LineSamples& in, std::span<float> strength) const override {
+        const py::gil_scoped_acquire python;
+        copy_returned(function_(in), strength);
+    }
+
+  private:
+    PythonFunction function_;
+};
+
+/// An array over values that `owner` keeps; it cannot be written.
+py::array view_of(const void* values, const char* type, std::vector<py::ssize_t> shape, const py::object& owner) {
+    const py::dtype dtype(type);
+    // A null pointer would have NumPy make memory of its own.
+    static const double nothing = 0;
+    py::array array(dtype, std::move(shape), values == nullptr ? &nothing : values, owner);
+    array.attr("setflags")(py::arg("write") = false);
+    return array;
+}
+
+const char* numpy_type(std::int32_t type) {
+    switch (type) {
+        case BURIN_HALF:
+            return "float16";
+        case BURIN_FLOAT:
+            return "float32";
+        case BURIN_UINT32:
+            return "uint32";
+        case BURIN_DOUBLE:
+            return "float64";
+        case BURIN_UINT64:
+            return "uint64";
+        case BURIN_UINT16:
+            return "uint16";
+        default:
+            return "uint8";
+    }
+}
+
+py::array channel(const py::object& self, const std::string& name) {
+    const auto& picture = self.cast<const burin::Picture&>();
+    std::int32_t type = 0, size[2] = {};
+    const void* const values = burin::checked(burin_channel(picture.get(), name.c_str(), &type, size));
+    return view_of(values, numpy_type(type), {size[1], size[0]}, self);
+}
+
+py::array column(const py::object& self, const std::string& name) {
+    const auto& drawing = self.cast<const burin::Drawing&>();
+    std::int32_t type = 0;
+    std::uint64_t count = 0;
+    const void* const values = burin::checked(burin_column(drawing.get(), name.c_str(), &type, &count));
+    return view_of(values, numpy_type(type), {static_cast<py::ssize_t>(count)}, self);
+}
+
+py::bytes encoded(const void* what, const std::string& format, const std::optional<std::string>& style) {
+    std::vector<std::byte> bytes;
+    {
+        const py::gil_scoped_release others_run;
+        bytes = burin::encoded(what, format, style ? style->c_str() : nullptr);
+    }
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void write(const void* what, const std::string& path, const std::optional<std::string>& style) {
+    const py::gil_scoped_release others_run;
+    burin::checked(burin_write(what, nullptr, style ? style->c_str() : nullptr, path.c_str()));
+}
+
+/// What the library throws, as exceptions of Python.
+void translate_errors(py::module_& module) {
+    static py::exception<burin::Error> input_error(module, "InputError", PyExc_ValueError);
+    static py::exception<burin::Error> usage_error(module, "UsageError", PyExc_ValueError);
+    static py::exception<burin::Error> cancelled(module, "Cancelled", PyExc_RuntimeError);
+    py::register_exception_translator([](std::exception_ptr thrown) {
+        try {
+            if (thrown) std::rethrow_exception(thrown);
+        } catch (const burin::Error& error) {
+            switch (error.kind()) {
+                case BURIN_BAD_INPUT:
+                    input_error(error.what());
+                    return;
+                case BURIN_BAD_ARGUMENT:
+                    usage_error(error.what());
+                    return;
+                case BURIN_STOPPED:
+                    cancelled(error.what());
+                    return;
+                default:
+                    PyErr_SetString(PyExc_RuntimeError, error.what());
+            }
+        }
+    });
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, module) {
+    module.doc() = "What the package burin is made of; see burin.";
+    module.def("version", [] { return std::string(burin_version()); });
+    module.def("abi", &burin_abi);
+    translate_errors(module);
+    using Unlocked = py::call_guard<py::gil_scoped_release>;
+
+    py::class_<Work>(module, "Work")
+        .def(py::init<std::array<int, 2>, std::array<std::int32_t, 4>, int, const std::string&, const burin::Matrix&,
+                      double, double, int, int, std::uint64_t, const std::string&, bool, py::object>(),
+             py::arg("size"), py::arg("crop"), py::arg("samples"), py::arg("camera"), py::arg("camera_to_world"),
+             py::arg("fov_deg"), py::arg("ortho_height"), py::arg("frame"), py::arg("threads"),
+             py::arg("memory_bytes"), py::arg("layers"), py::arg("for_paths"), py::arg("progress"));
+
+    py::class_<burin::Picture>(module, "Picture")
+        .def("channel_names", &burin::Picture::channel_names)
+        .def("channel", &channel, py::arg("name"))
+        .def("notes", &burin::Picture::notes)
+        .def("pixels",
+             [](const burin::Picture& self, int channels) {
+                 std::int32_t size[2] = {};
+                 burin::checked(burin_picture_size(self.get(), size));
+                 py::array_t<std::uint8_t> pixels(channels == 1 ? std::vector<py::ssize_t>{size[1], size[0]}
+                                                                : std::vector<py::ssize_t>{size[1], size[0], channels});
+                 std::uint8_t* const out = pixels.mutable_data();
+                 const py::gil_scoped_release others_run;
+                 self.pixels(out, channels);
+                 return pixels;
+             },
+             py::arg("channels"))
+        .def("encode",
+             [](const burin::Picture& self, const std::string& format) {
+                 return encoded(self.get(), format, std::nullopt);
+             },
+             py::arg("format"))
+        .def("write",
+             [](const burin::Picture& self, const std::string& path) { write(self.get(), path, std::nullopt); },
+             py::arg("path"));
+
+    py::class_<burin::Drawing>(module, "Drawing")
+        .def("piece_count", &burin::Drawing::piece_count)
+        .def("column", &column, py::arg("name"))
+        .def("draw",
+             [](const burin::Drawing& self, const std::optional<std::string>& style, int threads) {
+                 return style ? self.draw(*style, threads) : self.draw(threads);
+             },
+             Unlocked(), py::arg("style"), py::arg("threads"))
+        .def("encode",
+             [](const burin::Drawing& self, const std::string& format, const std::optional<std::string>& style) {
+                 return encoded(self.get(), format, style);
+             },
+             py::arg("format"), py::arg("style"))
+        .def("write",
+             [](const burin::Drawing& self, const std::string& path, const std::optional<std::string>& style) {
+                 write(self.get(), path, style);
+             },
+             py::arg("path"), py::arg("style"));
+
+    py::class_<burin::Scene>(module, "Scene")
+        .def(py::init<>())
+        .def("add_file", &burin::Scene::add_file, Unlocked(), py::arg("path"))
+        .def("add_text", &burin::Scene::add_text, Unlocked(), py::arg("toml"), py::arg("base_folder"))
+        .def("notes", &burin::Scene::notes)
+        .def("add_material",
+             [](burin::Scene& self, const std::string& name, const std::array<float, 3>& color, float opacity) {
+                 return self.add(burin::Material{name, color, opacity});
+             },
+             py::arg("name"), py::arg("color"), py::arg("opacity"))
+        .def("add_mesh", &add_mesh, py::arg("name"), py::arg("points"), py::arg("corners"), py::arg("polygon_sizes"),
+             py::arg("polygon_materials"), py::arg("polygon_objects"), py::arg("object_names"),
+             py::arg("marked_edges"), py::arg("corner_uv"), py::arg("point_colors"), py::arg("attributes"))
+        .def("remove_mesh", &burin::Scene::remove_mesh, py::arg("mesh"))
+        .def("add_object", &burin::Scene::add_object, py::arg("mesh"), py::arg("name"), py::arg("to_world"),
+             py::arg("material"))
+        .def("move", &burin::Scene::move, py::arg("object"), py::arg("to_world"))
+        .def("remove", &burin::Scene::remove, py::arg("object"))
+        .def("clear", &burin::Scene::clear)
+        .def("object_of_id", &burin::Scene::object_of_id, py::arg("id"))
+        .def("object_name", &burin::Scene::object_name, py::arg("object"))
+        .def("set", &burin::Scene::set, py::arg("key_and_value"))
+        .def("set_toml", &burin::Scene::set_toml, py::arg("toml"))
+        .def("set_style", &burin::Scene::set_style, py::arg("text_or_name"))
+        .def("add_line_shader",
+             [](burin::Scene& self, const std::string& name, std::vector<std::string> variables,
+                py::function function) {
+                 self.add_line_shader(name,
+                                      std::make_shared<PythonLineShader>(std::move(variables), std::move(function)));
+             },
+             py::arg("name"), py::arg("variables"), py::arg("function"))
+        .def("add_line_test",
+             [](burin::Scene& self, const std::string& name, std::vector<std::string> variables,
+                py::function function) {
+                 self.add_line_test(name,
+                                    std::make_shared<PythonLineTest>(std::move(variables), std::move(function)));
+             },
+             py::arg("name"), py::arg("variables"), py::arg("function"))
+        .def("render", [](burin::Scene& self, const Work& work) { return self.render(work.view, work.options); },
+             Unlocked(), py::arg("work"))
+        .def("find_lines",
+             [](burin::Scene& self, const Work& work) { return self.find_lines(work.view, work.options); }, Unlocked(),
+             py::arg("work"))
+        .def("explain",
+             [](burin::Scene& self, int x, int y, const std::string& format, const Work& work) {
+                 return self.explain(x, y, work.view, format, work.options);
+             },
+             Unlocked(), py::arg("x"), py::arg("y"), py::arg("format"), py::arg("work"))
+        .def("cancel", &burin::Scene::cancel, Unlocked());
+}

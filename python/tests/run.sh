@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Installs the package into an environment of its own, without network, and tests it there.
+#   run.sh PYTHON BUILD_FOLDER BURIN
+set -euo pipefail
+python=$1 build=$2 program=$3
+here=$(cd "$(dirname "$0")" && pwd)
+package=$(dirname "$here")
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+fail() { echo "python/tests/run.sh: $1" >&2; exit 1; }
+
+"$python" -m venv --system-site-packages "$folder/venv"
+# setuptools writes beside what it builds: a copy keeps the sources as they are.
+mkdir "$folder/source"
+ln -s "$(dirname "$package")/CMakeLists.txt" "$folder/source/"
+cp -r "$package" "$folder/source/python"
+BURIN_BUILD_FOLDER=$build "$folder/venv/bin/pip" install --quiet --no-build-isolation --no-index \
+    --no-deps "$folder/source/python" || fail "it cannot be installed"
+
+cd "$folder" # a test beside the package's sources would import these
+venv=$folder/venv/bin/python
+BURIN=$program "$venv" -m pytest -q -p no:cacheprovider --import-mode=importlib "$here" || fail "tests"
+installed=$("$venv" -c 'import burin, os; print(os.path.dirname(burin.__file__))')
+"$venv" -m mypy --strict --cache-dir "$folder/mypy" "$installed" || fail "types"
+# Metaclasses of pybind11 are no part of what users see.
+"$venv" -m mypy.stubtest burin._core --ignore-missing-stub --allowlist <(printf '%s\n' 'burin._core.*__class__' 'burin\._core\..*\.__init__' '.*pybind11.*') >"$folder/stubtest" 2>&1 ||
+    { grep -v metaclass "$folder/stubtest" | grep -q '^error:' && { cat "$folder/stubtest" >&2; fail "stubs"; }; }
