@@ -17,7 +17,7 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 /// Ends that are no farther apart are at one place.
 constexpr double kTogetherPx = 1.0 / 16;
 /// Parts of one run may be so far apart, and a line shorter than a pixel from the one that it goes on in.
-constexpr double kGapPx = 0.5, kCrumbPx = 1;
+constexpr double kGapPx = 0.5;
 /// Dashes go on if a pattern is off by no more than this.
 constexpr double kPhasePx = 1.0 / 8;
 /// Where more than two lines end, those belong together that turn by less than this cosine says.

@@ -12,7 +12,6 @@
 namespace burin {
 namespace {
 
-constexpr double kCrumbPx = 1.0;
 /// Lines that are no farther apart run along each other, for more than kTwicePx.
 constexpr double kBesidePx = 0.25, kTwicePx = 1.5;
 /// The sine up to which two lines run the same way.

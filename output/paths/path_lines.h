@@ -11,6 +11,9 @@
 
 namespace burin {
 
+/// Paths that are shorter are crumbs: they are joined to others, or left out where other ink covers them.
+constexpr double kCrumbPx = 1;
+
 /// What lines must have in common to become one path, beside their style.
 struct PathKind {
     InkOrder order;
