@@ -54,7 +54,7 @@ RenderJob::RenderJob(const Arguments& a)
 
 FrameRenderer RenderJob::load(DescribedInput described) {
     const std::vector<OutputFile> once = files_of_job(arguments_);
-    std::vector<OutputFile> outputs = outputs_of(plan_);
+    std::vector<OutputFile> outputs = existing_outputs(plan_);
     outputs.insert(outputs.end(), once.begin(), once.end());
     refuse_to_overwrite(outputs, {arguments_.input});
     // The first frame stands for all: what becomes of later ones is seen when their turn comes.
@@ -62,11 +62,7 @@ FrameRenderer RenderJob::load(DescribedInput described) {
     check_output_file(output_.path);
     if (plan_.lines) check_output_file(plan_.lines->path_of(plan_.frames.front()));
     for (const OutputFile& file : once) check_output_file(file.path);
-    if (plan_.frames.size() > 1 && !arguments_.is_dry_run) {
-        std::vector<std::string> paths;
-        for (const OutputFile& file : outputs) paths.push_back(file.path);
-        remove_left_behind(paths);
-    }
+    if (plan_.frames.size() > 1 && !arguments_.is_dry_run) sweep_outputs(plan_);
     return FrameRenderer(arguments_, method_, load_input(std::move(described), arguments_, outputs), plan_, output_);
 }
 
