@@ -18,9 +18,10 @@ void run_explain(const Arguments& a) {
     if (!a.method.empty() && a.method != "abuffer" && a.method != "patel") {
         throw UsageError("--method: only the masks of abuffer and patel can be explained, not those of " + a.method);
     }
-    Scene scene = load_scene_of(a);
+    Still still = load_still(a);
+    Scene& scene = still.scene;
     if (a.method == "patel") refuse_sheet(scene, "method patel draws no style sheets");
-    const Camera camera = camera_of(scene, a);
+    const Camera& camera = still.camera;
     empty_copied_objects(scene);
     close_cracks(scene, camera, scene.picture.width, scene.picture.height);
     const Frame frame = frame_of(scene, camera, a);

@@ -123,10 +123,7 @@ FrameRenderer::FrameRenderer(const Arguments& a, const Method& method, LoadedInp
     const PointSource points = points_of_frames(scene, animation_, input.frame_range);
     views_ = views_of(scene, points, a);
     if (views_.empty()) {
-        const bool has_range = !input.frame_range.empty() && animation_.moves();
-        const std::vector<CameraSettings> first =
-            has_range ? animation_.at(input.frame_range.front()).cameras : std::vector<CameraSettings>();
-        job_camera_.emplace(scene, first.empty() ? scene.cameras : first, points, input.turntable, a);
+        job_camera_.emplace(scene, cameras_to_fit(scene, animation_, input.frame_range), points, input.turntable, a);
     }
     pose_s_ = watch.seconds();
 }

@@ -176,18 +176,18 @@ TEST(AtomicFile, AReadOnlyFileIsNotReplaced) {
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"a", "link"}));
 }
 
+std::string host() {
+    char name[65] = "";
+    ::gethostname(name, sizeof name - 1);
+    return name;
+}
+
 /// The number of a process that has ended.
 int dead_process() {
     const pid_t child = ::fork();
     if (child == 0) ::_exit(0);
     ::waitpid(child, nullptr, 0);
     return child;
-}
-
-std::string host() {
-    char name[65] = "";
-    ::gethostname(name, sizeof name - 1);
-    return name;
 }
 
 TEST(AtomicFile, WhatDeadProcessesLeftIsRemovedForAllFramesAtOnce) {
@@ -263,7 +263,7 @@ TEST(AtomicFile, ATemporaryNameIsRemovedWhateverHappens) {
     const TemporaryFolder folder;
     const std::string path = folder.file("a.txt");
     const auto is_temporary = [&](const std::vector<std::string>& names) {
-        return names.size() == 1 && names[0] == ".a.burin-" + std::to_string(::getpid()) + "-0.txt";
+        return names.size() == 1 && names[0] == ".a.burin-" + host() + "-" + std::to_string(::getpid()) + "-0.txt";
     };
     constexpr int kNoFilter = 77;
     // The number of the check that fails, from 1.
