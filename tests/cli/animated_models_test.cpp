@@ -50,7 +50,8 @@ TEST(AnimatedModels, AFrameIsTheStillOfTheModelInThatPose) {
     folder.write("bend.gltf", bending().json());
     GltfParts posed = bending();
     posed.animations = "";
-    posed.nodes = R"([{"mesh": 0, "skin": 0, "weights": [0.5]}, {"rotation": [0, 0, 0.7071067811865476, 0.7071067811865476]}])";
+    posed.nodes =
+        R"([{"mesh": 0, "skin": 0, "weights": [0.5]}, {"rotation": [0, 0, 0.7071067811865476, 0.7071067811865476]}])";
     folder.write("posed.gltf", posed.json());
     posed.nodes = R"([{"mesh": 0, "skin": 0}, {}])";
     folder.write("rest.gltf", posed.json());
@@ -116,13 +117,15 @@ TEST(AnimatedModels, WhatIsWrongIsOneLineAndWritesNothing) {
         EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
         EXPECT_EQ(folder.names(), before);
     };
-    fails(rendering("broken.gltf", {"-f", "1-2", "-o", "out.#.png"}), 1, "broken.gltf: accessors[2]: the type must be VEC4");
+    fails(rendering("broken.gltf", {"-f", "1-2", "-o", "out.#.png"}), 1,
+          "broken.gltf: accessors[2]: the type must be VEC4");
     fails(rendering("bend.gltf", {"--frame", "1", "--set", "object.0.animation=Run", "-o", "out.png"}), 1,
           "bend.gltf: no animation \"Run\"; it has \"Bend\"");
     fails(rendering("walk.toml", {"-o", "out.png"}), 2, "walk.####.obj: is a model per frame; say which with --frames");
     fails(rendering("walk.toml", {"-f", "7", "-o", "out.png"}), 1,
           "walk.0007.obj: no such file (frame 7 of object \"walk\")");
-    const ProgramResult stopped = run_burin(folder.path(), rendering("walk.toml", {"-f", "6-7", "-q", "-o", "out.##.png"}));
+    const ProgramResult stopped =
+        run_burin(folder.path(), rendering("walk.toml", {"-f", "6-7", "-q", "-o", "out.##.png"}));
     EXPECT_EQ(stopped.status, 1);
     EXPECT_NE(stopped.err.find("frame 7: "), std::string::npos) << stopped.err;
     EXPECT_NE(stopped.err.find("walk.0007.obj: no such file (frame 7 of object \"walk\")"), std::string::npos)
