@@ -62,19 +62,23 @@ TEST(CameraShift, ThePictureMovesAndTheViewStays) {
     settings.eye = glm::dvec3(0, 0, 5);
     settings.target = glm::dvec3(0);
     settings.fov_deg = 90;
-    const Camera plain = resolve_camera(settings, [](const auto&) {}, kAspect);
+    const Camera plain = resolve_camera(
+        settings, [](const auto&) {}, kAspect);
     settings.shift = {0.25, 0.5};
     for (const bool orthographic : {false, true}) {
         settings.orthographic = orthographic;
         settings.height = 10;
-        const Camera shifted = resolve_camera(settings, [](const auto&) {}, kAspect);
+        const Camera shifted = resolve_camera(
+            settings, [](const auto&) {}, kAspect);
         EXPECT_EQ(shifted.to_world, plain.to_world);
         // The picture shows what is to the right and up, so all in it is farther to the left and down.
         EXPECT_EQ(pixel_of(shifted, glm::dvec3(0)), glm::dvec2(600 - 200, 400 + 400));
         const glm::dvec2 way = pixel_of(shifted, {1, 2, 3}) - glm::dvec2(-200, 400);
         settings.shift = {};
-        EXPECT_NEAR(glm::distance(way, pixel_of(resolve_camera(settings, [](const auto&) {}, kAspect), {1, 2, 3})), 0,
-                    1e-9);
+        EXPECT_NEAR(glm::distance(way, pixel_of(resolve_camera(
+                                                    settings, [](const auto&) {}, kAspect),
+                                                {1, 2, 3})),
+                    0, 1e-9);
         settings.shift = {0.25, 0.5};
     }
 }
@@ -104,8 +108,8 @@ TEST(CameraShift, ATargetStaysOnTheAxis) {
         CameraSettings settings = random_settings(random, trial % 2 == 1);
         settings.target = points[0];
         settings.shift *= 0.4;
-        const bool shows_target =
-            std::abs(settings.shift.x) < 0.5 * settings.fit * kAspect && std::abs(settings.shift.y) < 0.5 * settings.fit;
+        const bool shows_target = std::abs(settings.shift.x) < 0.5 * settings.fit * kAspect &&
+                                  std::abs(settings.shift.y) < 0.5 * settings.fit;
         try {
             const Camera camera = resolve_camera(settings, source(points), kAspect);
             ASSERT_TRUE(shows_target) << trial;
@@ -133,14 +137,15 @@ TEST(CameraLens, ThePlaneInFocusStandsStill) {
         settings.fov_deg = random.real(5, 100);
         settings.shift = {random.real(-0.5, 0.5), random.real(-0.5, 0.5)};
         settings.lens_radius = random.real(0.01, 0.5);
-        const Camera camera = resolve_camera(settings, [](const auto&) {}, kAspect);
+        const Camera camera = resolve_camera(
+            settings, [](const auto&) {}, kAspect);
         ASSERT_NEAR(camera.focus, glm::distance(*settings.eye, *settings.target), 1e-9);
         const glm::dvec2 point(random.real(-0.7, 0.7), random.real(-0.7, 0.7));
         const Camera moved = from_lens_point(camera, point);
         ASSERT_NEAR(glm::distance(moved.eye(), camera.eye()), settings.lens_radius * glm::length(point), 1e-9);
         const double depth = trial % 2 == 0 ? camera.focus : random.real(0.2, 40);
-        const glm::dvec3 place(
-            camera.to_world * glm::dvec4(random.real(-1, 1) * depth, random.real(-1, 1) * depth, -depth, 1));
+        const glm::dvec3 place(camera.to_world *
+                               glm::dvec4(random.real(-1, 1) * depth, random.real(-1, 1) * depth, -depth, 1));
         const double focal_px = camera.projection(kWidth, kHeight, 0).focal_px;
         const double way = settings.lens_radius * focal_px * (1 / depth - 1 / camera.focus);
         const glm::dvec2 expected = pixel_of(camera, place) + way * glm::dvec2(-point.x, point.y);
