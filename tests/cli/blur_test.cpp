@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -37,7 +38,9 @@ class Blur : public ::testing::Test {
   protected:
     ProgramResult run(const std::string& scene, const Arguments& options) {
         folder_.write("scene.toml", scene);
-        Arguments arguments = {"render", "scene.toml", "-r", "90x60"};
+        Arguments arguments = {"render", "scene.toml"};
+        if (std::find(options.begin(), options.end(), "-r") == options.end())
+            arguments.insert(arguments.end(), {"-r", "90x60"});
         arguments.insert(arguments.end(), options.begin(), options.end());
         return run_burin(folder_.path(), arguments);
     }
@@ -60,8 +63,7 @@ TEST_F(Blur, IsTheMeanOfFramesRenderedOneByOne) {
     const Image blurred = image(opened, {"--frame", "4", "--layers", "beauty,lines,Z"});
     std::vector<Image> frames;
     for (const char* frame : {"4.125", "4.375", "4.625", "4.875"}) {
-        const ProgramResult result =
-            run(kMoving, {"-f", frame, "-o", "one_##.###.exr", "--layers", "beauty,lines,Z"});
+        const ProgramResult result = run(kMoving, {"-f", frame, "-o", "one_##.###.exr", "--layers", "beauty,lines,Z"});
         ASSERT_EQ(result.status, 0) << result.err;
         frames.push_back(read_exr(folder_.file(std::string("one_0") + frame + ".exr")));
     }
@@ -126,12 +128,15 @@ TEST_F(Blur, MistakesAreNamed) {
     expect("[shutter]\n" + still, {"-o", "out.svg"}, 2, "[shutter]: a vector file has no blur");
     expect(still, {"--lens", "1", "--style", "technical", "--save-lines", "a.lines"}, 2, "--lens: saved lines");
     expect(still, {"--lens", "1", "--views", "front"}, 2, "--lens: the views of a sheet");
-    expect("[shutter]\nopen = 1\nclose = 0\n" + still, {}, 1, "scene.toml:3:9: [shutter] close: must open before it closes");
+    expect("[shutter]\nopen = 1\nclose = 0\n" + still, {}, 1,
+           "scene.toml:3:9: [shutter] close: must open before it closes");
     expect("[shutter]\ncurve = [0.7, 0.7]\n" + still, {}, 1, "[shutter] curve: must be \"box\"");
     expect("[shutter]\nsamples = 0\n" + still, {}, 1, "[shutter] samples");
-    expect("[[camera]]\nlens_radius = 1\nheight = 2\n" + still, {}, 1, "lens_radius: an orthographic camera has no lens");
+    expect("[[camera]]\nlens_radius = 1\nheight = 2\n" + still, {}, 1,
+           "lens_radius: an orthographic camera has no lens");
     expect("[[camera]]\nshift = [101, 0]\n" + still, {}, 1, "shift: must be from -100 to 100");
-    expect("[[camera]]\neye = [0, 0, 9]\nshift = [99, 0]\n" + still, {"-r", "2000x2000"}, 1, "the camera's shift moves");
+    expect("[[camera]]\neye = [0, 0, 9]\nshift = [99, 0]\n" + still, {"-r", "2000x2000"}, 1,
+           "the camera's shift moves");
     EXPECT_FALSE(std::filesystem::exists(folder_.file("out.svg")));
 }
 
