@@ -35,6 +35,8 @@ void fill_blur_options(const BlurTexts& t, Arguments& a) {
         a.lens_radius = number("--lens", t.lens);
         if (!(*a.lens_radius >= 0 && *a.lens_radius <= 1e30)) fail("--lens", "must be from 0 to 1e30");
         if (*a.lens_radius > 0 && a.ortho_height) fail("--lens", "an orthographic camera has no lens");
+        if (*a.lens_radius > 0 && !a.views.empty())
+            fail("--lens", "the views of a sheet (--views) have no blur; remove one");
     }
     if (!t.focus.empty()) {
         a.focus = number("--focus", t.focus);
