@@ -10,7 +10,7 @@ namespace {
 
 // Scripts, in which @name@ stands for a value.
 
-constexpr std::string_view kRenderScript = R"(#!/bin/sh
+constexpr std::string_view kRenderScript = R"sh(#!/bin/sh
 # Made by burin submit: each task renders its chunk of the frames, as far as they are not there.
 #SBATCH --job-name=@job@
 #SBATCH --array=0-@last_task@
@@ -39,9 +39,9 @@ do wait $child status = $ ? done if[$status - eq 1] && ["${SLURM_RESTART_COUNT:-
     scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID" && sleep 60
 fi
 exit $status
-)";
+)sh";
 
-constexpr std::string_view kCollectScript = R"(#!/bin/sh
+constexpr std::string_view kCollectScript = R"sh(#!/bin/sh
 # Made by burin submit: runs when no task of the job is left.
 #SBATCH --job-name=@job@-collect
 #SBATCH --output=@logs@/collect_%j.txt
@@ -54,9 +54,9 @@ if [ -n "$missing" ]; then
     exit 1
 fi
 echo "all frames are there"
-)";
+)sh";
 
-constexpr std::string_view kJoin = R"(# join OUTPUT BAND...: makes one frame. Its bands are removed when it is there.
+constexpr std::string_view kJoin = R"sh(# join OUTPUT BAND...: makes one frame. Its bands are removed when it is there.
 join() {
     output=$1
     shift
@@ -65,7 +65,7 @@ join() {
     done
     @program@ assemble -o "$output" "$@@" && rm -f "$@@"
 }
-)";
+)sh";
 
 /// Puts values in the places of their names; @@ is one @.
 std::string filled(std::string_view text, std::initializer_list<std::pair<std::string_view, std::string>> values) {

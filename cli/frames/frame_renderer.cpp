@@ -310,7 +310,7 @@ DrawnFrame FrameRenderer::draw(const OutputOptions& output, Progress* progress) 
     if (counts && drawn.times.render.fragments == 0 && !has_lines) note(kNoSurfaceIsSeen);
     for (const std::string& text : drawn.times.render.notes) note(text);
     is_first_ = false;
-    frame.next = nullptr;
+    drawn.frame.next = nullptr;
     return drawn;
 }
 
