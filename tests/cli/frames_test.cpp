@@ -170,6 +170,15 @@ scale = 0.5
     EXPECT_TRUE(fs::exists(folder_.file("all.01.5.exr")));
 }
 
+/// Methods that look at depth in steps have the same range in all frames, whichever are asked for.
+TEST_F(Frames, DepthRangesAreFittedOnce) {
+    for (const std::string method : {"stencil", "gbuffer"}) {
+        expect_done({"s.toml", "-f", "1-6", "-o", "all.#.png", "-m", method});
+        expect_done({"s.toml", "-f", "4", "-o", "one.png", "-m", method});
+        EXPECT_EQ(content("one.png"), content("all.0004.png")) << method;
+    }
+}
+
 TEST_F(Frames, NoFrameIsWrittenOverAnInput) {
     fs::create_hard_link(folder_.file("cube.obj"), folder_.file("o.05.png"));
     expect_error({"s.toml", "-f", "1-6", "-o", "o.##.png"}, 2, "--output: would overwrite");
