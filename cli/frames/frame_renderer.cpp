@@ -8,6 +8,7 @@
 #include "base/atomic_file.h"
 #include "base/limit_error.h"
 #include "base/stopwatch.h"
+#include "cli/frames/depth_fit.h"
 #include "cli/render_notes.h"
 #include "cli/sheet_refusal.h"
 #include "cli/sheet_views.h"
@@ -124,6 +125,9 @@ FrameRenderer::FrameRenderer(const Arguments& a, const Method& method, LoadedInp
     views_ = views_of(scene, points, a);
     if (views_.empty()) {
         job_camera_.emplace(scene, cameras_to_fit(scene, animation_, input.frame_range), points, input.turntable, a);
+        // Only these look at depth in steps.
+        if (plan.is_sequence && animation_.moves() && method.name != "abuffer" && !input.frame_range.empty())
+            fit_depth_ranges(animation_, input.frame_range, *job_camera_, scene);
     }
     pose_s_ = watch.seconds();
 }
