@@ -50,7 +50,7 @@ struct Mesh {
     std::vector<std::uint32_t> triangle_polygon;          ///< empty: triangle i is polygon i
     std::uint32_t polygon_count = 0;
     InputOrder input_order;  ///< of polygons; large meshes are put in spatial order
-    /// Area vectors (Newell) of the polygons; empty if and only if all polygons are triangles.
+    /// Normals of the polygons, by their area vectors (Newell); empty: all are triangles, with an area of their own.
     std::vector<glm::vec3> polygon_normals;
     std::vector<std::uint32_t> polygon_material;  ///< empty: all have material 0
 

@@ -217,8 +217,9 @@ SceneChange FrameRenderer::change_at(double frame) const {
 
 void FrameRenderer::pose(SceneChange&& change) {
     const Stopwatch watch;
-    for (const std::string& text : change.notes) note(text);
+    const std::vector<std::string> notes = std::move(change.notes);
     posed_.pose(std::move(change));
+    for (const std::string& text : notes) note(text);
     camera_ = views_.empty() ? job_camera_->at(scene()) : views_.front().camera;
     posed_.make_ready(camera_);
     pose_s_ += watch.seconds();

@@ -68,7 +68,9 @@ std::vector<std::string> names_of(const std::vector<T>& things) {
 
 }  // namespace
 
-ModelSequence::ModelSequence(SequenceSettings settings) : settings_(std::move(settings)) {}
+ModelSequence::ModelSequence(SequenceSettings settings) : settings_(std::move(settings)) {
+    settings_.options.budget = nullptr;  // it counts for the loader, each file for itself
+}
 
 Model ModelSequence::load(double frame) {
     std::vector<std::string> notes;
@@ -83,7 +85,8 @@ ModelMotion::Pose ModelSequence::at(double frame) const {
     Pose pose;
     Model model = model_at(frame, pose.notes);
     for (const std::string& note : model.notes) pose.notes.push_back(note);
-    const std::vector<std::uint32_t> materials = materials_for(model, pose.notes);
+    const std::string file = files_of(frame).file;
+    const std::vector<std::uint32_t> materials = materials_for(model, file, pose.notes);
     const std::vector<std::size_t> places = places_by_name(object_names_, names_of(model.objects));
     std::vector<bool> is_shown(model.objects.size(), false);
     for (std::uint32_t i = 0; i < places.size(); ++i) {
@@ -101,7 +104,7 @@ ModelMotion::Pose ModelSequence::at(double frame) const {
         pose.meshes.emplace_back(i, std::move(mesh));
     }
     if (const auto left_out = std::count(is_shown.begin(), is_shown.end(), false); left_out > 0) {
-        pose.notes.push_back(files_of(frame).file + ": left out " + std::to_string(left_out) +
+        pose.notes.push_back(file + ": left out " + std::to_string(left_out) +
                              (left_out == 1 ? " object" : " objects") + ", which the first file of the frames has not");
     }
     return pose;
@@ -198,7 +201,8 @@ Model ModelSequence::model_at(double frame, std::vector<std::string>& notes) con
 }
 
 /// For each material of a model the number of the first file's that stands for it.
-std::vector<std::uint32_t> ModelSequence::materials_for(const Model& model, std::vector<std::string>& notes) const {
+std::vector<std::uint32_t> ModelSequence::materials_for(const Model& model, const std::string& file,
+                                                        std::vector<std::string>& notes) const {
     const std::vector<std::size_t> places = places_by_name(names_of(model.materials), material_names_);
     std::vector<std::uint32_t> numbers;
     std::size_t without = 0;
@@ -207,8 +211,8 @@ std::vector<std::uint32_t> ModelSequence::materials_for(const Model& model, std:
         numbers.push_back(place == kNone ? 0 : static_cast<std::uint32_t>(place));
     }
     if (without > 0) {
-        notes.push_back(std::to_string(without) + (without == 1 ? " material" : " materials") +
-                        " of a file that the first file of the frames has not; drawn with that file's first one");
+        notes.push_back(file + ": " + std::to_string(without) + (without == 1 ? " material" : " materials") +
+                        ", which the first file of the frames has not, drawn as that file's first one");
     }
     return numbers;
 }

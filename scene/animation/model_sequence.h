@@ -53,7 +53,8 @@ class ModelSequence : public ModelMotion {
     std::vector<double> numbers() const;
     Source read(const std::string& path) const;
     Model model_at(double frame, std::vector<std::string>& notes) const;
-    std::vector<std::uint32_t> materials_for(const Model& model, std::vector<std::string>& notes) const;
+    std::vector<std::uint32_t> materials_for(const Model& model, const std::string& file,
+                                             std::vector<std::string>& notes) const;
 
     SequenceSettings settings_;
     std::vector<std::string> object_names_, material_names_;  // of the first file

@@ -222,6 +222,13 @@ TEST_F(MovingModels, ObjectsOfASequenceAreFoundByName) {
     EXPECT_EQ(color(second, 0), color(loaded.scene, 0));
     EXPECT_EQ(color(second, 1), color(loaded.scene, 1));
     EXPECT_NE(color(second, 0), color(second, 1));
+    folder_.write("b.mtl", "newmtl red\nnewmtl green\nnewmtl grey\n");
+    folder_.write("walk.0005.obj",
+                  "mtllib b.mtl\nv 0 0 7\nv 1 0 7\nv 0 1 7\nv 1 1 7\no left\nusemtl green\nf 1 2 3\nusemtl red\nf 2 3 "
+                  "4\nusemtl grey\nf 1 2 4\n");
+    const std::vector<std::string> notes = loaded.animation.at(5).notes;
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_TRUE(has(notes[0], "walk.0005.obj: 1 material, which the first file of the frames has not"));
     const Scene third = scene_at(loaded, 3);
     EXPECT_TRUE(third.meshes[third.objects[0].mesh].triangles.empty()) << "there is no left one";
     EXPECT_EQ(vertex(third, 1, 0), glm::dvec3(0, 0, 7));
