@@ -1,4 +1,3 @@
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -124,9 +123,6 @@ void run_restyle(const Arguments& a) {
     frame.surfaces.projection = file.lines.projection;
     frame.camera.to_world = file.lines.camera_to_world;
     frame.camera.orthographic = file.lines.projection.orthographic;
-    const double height = frame.height / file.lines.projection.focal_px;
-    frame.camera.height = height;
-    frame.camera.fov_deg = glm::degrees(2 * std::atan(height / 2));
     scene.frame = {file.lines.frame, file.lines.fps};
     scene.sheet = sheet_as_wished(read_sheet(*source, a.overrides), a, sheet_context_of(frame));
     scene.lines.style.filter = scene.sheet->filter.value_or(file.lines.filter);

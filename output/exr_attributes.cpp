@@ -13,7 +13,11 @@ namespace {
 
 std::string text_of(double value) {
     std::array<char, 32> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value == 0 ? 0.0 : value).ptr;
+    // As many digits as a float has: what cannot matter must not make files differ.
+    constexpr int kDigits = 9;
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value == 0 ? 0.0 : value,
+                                   std::chars_format::general, kDigits)
+                         .ptr;
     return {digits.data(), end};
 }
 
@@ -21,12 +25,12 @@ std::string text_of(const glm::dvec3& v) {
     return "[" + text_of(v.x) + ", " + text_of(v.y) + ", " + text_of(v.z) + "]";
 }
 
-/// The camera as a scene file has it.
-std::string text_of(const Camera& camera) {
+/// The camera as a scene file has it, of the whole picture.
+std::string text_of(const Camera& camera, double height) {
     const glm::dvec3 eye = camera.eye(), up(camera.to_world[1]), back(camera.to_world[2]);
     std::string text = "eye = " + text_of(eye) + ", target = " + text_of(eye - back) + ", up = " + text_of(up);
-    if (camera.orthographic) return "projection = \"orthographic\", " + text + ", height = " + text_of(camera.height);
-    return "projection = \"perspective\", " + text + ", fov = " + text_of(camera.fov_deg);
+    if (camera.orthographic) return "projection = \"orthographic\", " + text + ", height = " + text_of(height);
+    return "projection = \"perspective\", " + text + ", fov = " + text_of(glm::degrees(2 * std::atan(height / 2)));
 }
 
 /// glm keeps columns of matrices for column vectors one after the other: these are the rows for row vectors.
@@ -75,7 +79,7 @@ ExrOptions exr_options_of(const Frame& frame, std::optional<int> image_counter, 
     if (!has_camera) return exr;
     const Camera& camera = frame.camera;
     const Projection& p = frame.surfaces.projection;
-    exr.attributes.push_back({"burin/camera", text_of(camera)});
+    exr.attributes.push_back({"burin/camera", text_of(camera, frame.height / p.focal_px)});
     const double width = frame.width, height = frame.height;
     exr.screen_window_width = static_cast<float>(width / p.focal_px);
     const glm::dvec2 middle = (glm::dvec2(width, height) * 0.5 - p.center_px) / p.focal_px;

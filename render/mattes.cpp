@@ -11,8 +11,8 @@ auto key_of(const SurfaceShare& s) {
 }
 /// The one that covers most comes first; of equal ones, by class.
 auto key_of(const LineSpot& s) {
-    return std::tuple(s.place.pixel, -s.coverage, s.drawn_as, s.invisibility, s.distance, s.owner.object,
-                      s.owner.material, s.width_px);
+    return std::tuple(s.place.pixel, -s.coverage, s.drawn_as, s.invisibility, s.owner.object, s.owner.material,
+                      s.distance, s.width_px);
 }
 
 template <typename Record, std::size_t kCount>

@@ -16,13 +16,20 @@ namespace {
 
 constexpr int kTilePx = 32;
 
+/// Whole tiles around a crop. They are those of the whole picture, so that each has the same strokes in any crop.
+PixelRect whole_tiles(PixelRect crop) {
+    const auto down = [](int px) { return px & -kTilePx; };
+    return {down(crop.x0), down(crop.y0), down(crop.x1 + kTilePx - 1), down(crop.y1 + kTilePx - 1)};
+}
+
 /// The segments of strokes that reach each tile, and the boundaries that may cut them.
 struct Bins {
     PixelTiles tiles;
     TileLists<InkSegmentRef> segments;
     TileLists<std::uint32_t> boundaries;
 
-    Bins(const InkedLines& lines, const InkPlan& plan, bool has_sides, PixelRect crop) : tiles(crop, kTilePx) {
+    Bins(const InkedLines& lines, const InkPlan& plan, bool has_sides, PixelRect crop)
+        : tiles(whole_tiles(crop), kTilePx) {
         const double filter_px = reach_px(lines.filter);
         std::vector<std::vector<TileLists<InkSegmentRef>::Record>> segment_records(1);
         for (std::size_t i = 0; i < lines.strokes.size(); ++i) {
@@ -82,7 +89,9 @@ void draw_ink(const Frame& frame, const InkedLines& lines, int threads, Film& fi
             if (film.mattes() != nullptr)
                 own->mattes.emplace(frame, lines, plan, filter.get(), best_kernels(), *film.mattes());
         }
-        const PixelRect rect = bins.tiles.tile(i);
+        const PixelRect whole = bins.tiles.tile(i), &crop = frame.crop;
+        const PixelRect rect{std::max(whole.x0, crop.x0), std::max(whole.y0, crop.y0), std::min(whole.x1, crop.x1),
+                             std::min(whole.y1, crop.y1)};
         if (own->mattes) own->tile.tell(&own->mattes->begin(rect));
         own->tile.draw(segments, bins.boundaries.of(i),
                        {rect.x0 - reach, rect.y0 - reach, rect.x1 + reach, rect.y1 + reach});

@@ -96,6 +96,8 @@ void TileMattes::add_share(int column, int row, const StrokeMask& samples, const
 
 void TileMattes::add_spot(int column, int row, const OwnerMasks::Line& line, float coverage) {
     const int x = owners_.rect().x0 + column, y = owners_.rect().y0 + row;
+    constexpr float kSpotSteps = 1 << 10;
+    coverage = std::round(coverage * kSpotSteps) / kSpotSteps;  // what covers the same is told by its class
     if (!(coverage > 0) || x < tile_.x0 || y < tile_.y0 || x >= tile_.x1 || y >= tile_.y1) return;
     batch_.spots.push_back({mattes_.place_of(x, y), line.drawn_as, line.invisibility, line.owner,
                             static_cast<float>(projection_.distance(static_cast<double>(line.nearness))), line.width_px,

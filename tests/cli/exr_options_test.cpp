@@ -95,7 +95,7 @@ TEST(ExrFiles, HeadersTellOfFrameAndCamera) {
 TEST(ExrFiles, CornersLieWhereMatricesLead) {
     const TemporaryFolder folder;
     write_file(folder.file("box.toml"),
-               "[[object]]\nname = \"box\"\nshape = \"box\"\nsize = [2, 1.4, 1]\n[lines]\nclasses = [\"silhouette\", "
+               "[[object]]\nname = \"box\"\nshape = \"box\"\nsize = [2, 1.4, 1]\n[lines]\ndraw = [\"silhouette\", "
                "\"crease\"]\n[[camera]]\neye = [3, 2.2, 4]\ntarget = [0.2, 0.1, 0]\n");
     for (const std::vector<std::string>& view : std::vector<std::vector<std::string>>{
              {}, {"--crop", "20,10,90,50"}, {"--ortho", "3"}, {"--ortho", "3", "--overscan", "8"}}) {
