@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/json_writer.h"
+#include "cli/blur.h"
 #include "cli/job.h"
 #include "cli/sheet_refusal.h"
 #include "methods/abuffer.h"
@@ -18,9 +19,11 @@ void run_explain(const Arguments& a) {
     if (!a.method.empty() && a.method != "abuffer" && a.method != "patel") {
         throw UsageError("--method: only the masks of abuffer and patel can be explained, not those of " + a.method);
     }
-    Scene scene = load_scene_of(a);
+    Still still = load_still(a);
+    Scene& scene = still.scene;
     if (a.method == "patel") refuse_sheet(scene, "method patel draws no style sheets");
-    const Camera camera = camera_of(scene, a);
+    const Camera& camera = still.camera;
+    note_missing_blur(scene, camera, a, "burin explain");
     empty_copied_objects(scene);
     close_cracks(scene, camera, scene.picture.width, scene.picture.height);
     const Frame frame = frame_of(scene, camera, a);

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/stopwatch.h"
+#include "cli/blur.h"
 #include "cli/commands.h"
 #include "cli/job.h"
 #include "compare/rasterize_svg.h"
@@ -118,12 +119,14 @@ void run_compare(const Arguments& a) {
     Progress progress(a.alf_progress ? ProgressStyle::alf : (shows_bar ? ProgressStyle::bar : ProgressStyle::none));
     const Stopwatch total;
     const std::vector<const Method*> chosen = chosen_methods(a);
-    Scene scene = load_scene_of(a, files_in(a.output));
+    Still still = load_still(a, files_in(a.output));
+    Scene& scene = still.scene;
     if (scene.sheet) throw UsageError("--style: burin compare draws no style sheets; remove the style sheet");
     draw_what_all_can(scene, a.quiet);
     View view;
     {
-        const Camera camera = camera_of(scene, a);
+        const Camera& camera = still.camera;
+        note_missing_blur(scene, camera, a, "burin compare");
         empty_copied_objects(scene);
         close_cracks(scene, camera, scene.picture.width, scene.picture.height);
         const Frame frame = frame_of(scene, camera, a);

@@ -224,9 +224,10 @@ double still_frame(const Arguments& a, const std::vector<double>& range, const s
     return turntable ? turntable->first : 0;
 }
 
-Scene load_scene_of(const Arguments& a, const std::vector<OutputFile>& outputs) {
-    refuse_to_overwrite(outputs, {a.input});
-    LoadedInput input = load_input(describe_input(a), a, outputs);
+namespace {
+
+/// Puts a scene that is at rest into the frame of a still.
+void pose_still(const Arguments& a, LoadedInput& input) {
     const double frame = still_frame(a, input.frame_range, input.turntable);
     const bool is_at_rest = !a.frame && input.frame_range.empty();
     if (input.animation.moves() && !is_at_rest) {
@@ -234,6 +235,14 @@ Scene load_scene_of(const Arguments& a, const std::vector<OutputFile>& outputs) 
     } else {
         input.scene.frame.number = frame;
     }
+}
+
+}  // namespace
+
+Scene load_scene_of(const Arguments& a, const std::vector<OutputFile>& outputs) {
+    refuse_to_overwrite(outputs, {a.input});
+    LoadedInput input = load_input(describe_input(a), a, outputs);
+    pose_still(a, input);
     return std::move(input.scene);
 }
 
@@ -271,8 +280,25 @@ Camera JobCamera::at(const std::vector<CameraSettings>& cameras, const PictureSe
     return naming_camera(settings, arguments_, [&] { return fitted_.at(settings, frame); });
 }
 
-Camera camera_of(const Scene& scene, const Arguments& a) {
-    return JobCamera(scene, scene.cameras, scene_points(scene), std::nullopt, a).at(scene);
+std::vector<CameraSettings> cameras_to_fit(const Scene& scene, const SceneAnimation& animation,
+                                           const std::vector<double>& range) {
+    if (range.empty() || !animation.moves()) return scene.cameras;
+    std::vector<CameraSettings> first = animation.at(range.front()).cameras;
+    return first.empty() ? scene.cameras : first;
+}
+
+Still load_still(const Arguments& a, const std::vector<OutputFile>& outputs) {
+    refuse_to_overwrite(outputs, {a.input});
+    LoadedInput input = load_input(describe_input(a), a, outputs);
+    std::optional<JobCamera> camera;
+    {
+        const PointSource points = points_of_frames(input.scene, input.animation, input.frame_range);
+        camera.emplace(input.scene, cameras_to_fit(input.scene, input.animation, input.frame_range), points,
+                       input.turntable, a);
+    }
+    pose_still(a, input);
+    const Camera seen = camera->at(input.scene);
+    return {std::move(input.scene), seen};
 }
 
 std::vector<ViewOnSheet> views_of(const Scene& scene, const PointSource& points, const Arguments& a) {

@@ -42,9 +42,6 @@ Scene load_scene_of(const Arguments& arguments, const std::vector<OutputFile>& o
 double still_frame(const Arguments& arguments, const std::vector<double>& range,
                    const std::optional<Turntable>& turntable);
 
-/// The camera that the arguments ask for, of a scene that does not move. Throws InputError and UsageError.
-Camera camera_of(const Scene& scene, const Arguments& arguments);
-
 /// The camera that the arguments ask for, of each frame.
 class JobCamera {
   public:
@@ -61,6 +58,18 @@ class JobCamera {
     const Arguments& arguments_;
     FittedCamera fitted_;
 };
+
+/// The cameras of a scene at rest for which those of all frames are fitted: as they are in the first frame of the
+/// range.
+std::vector<CameraSettings> cameras_to_fit(const Scene& scene, const SceneAnimation& animation,
+                                           const std::vector<double>& range);
+
+/// The scene of one frame, and the camera that render has for it.
+struct Still {
+    Scene scene;
+    Camera camera;
+};
+Still load_still(const Arguments& arguments, const std::vector<OutputFile>& outputs = {});
 
 /// The views on one sheet that the arguments ask for; none: one view, through a camera. Throws InputError and
 /// UsageError.

@@ -275,7 +275,7 @@ void run_render(const Arguments& a) {
     Stopwatch total, watch;
     DescribedInput described = describe_input(a);
     const FramePlan plan = plan_frames(a, described.description, output.path);
-    outputs = outputs_of(plan);
+    outputs = existing_outputs(plan);
     outputs.insert(outputs.end(), once.begin(), once.end());
     refuse_to_overwrite(outputs, {a.input});
     // The first frame stands for all: what becomes of later ones is seen when their turn comes.
@@ -283,11 +283,7 @@ void run_render(const Arguments& a) {
     check_output_file(output.path);
     if (plan.lines) check_output_file(plan.lines->path_of(plan.frames.front()));
     if (writes_stats_file(a)) check_output_file(a.stats);
-    if (plan.frames.size() > 1) {
-        std::vector<std::string> paths;
-        for (const OutputFile& file : outputs) paths.push_back(file.path);
-        remove_left_behind(paths);
-    }
+    if (plan.frames.size() > 1) sweep_outputs(plan);
     FrameRenderer renderer(a, method, load_input(std::move(described), a, outputs), plan, output);
     const double load_s = watch.lap();
     if (!plan.is_sequence)

@@ -1,7 +1,11 @@
 #include "cli/frames/frame_plan.h"
 
+#include <algorithm>
+#include <filesystem>
+#include <unordered_set>
 #include <utility>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "cli/job.h"
@@ -29,6 +33,24 @@ std::vector<double> frames_around(double first, int count) {
     std::vector<double> frames;
     for (int i = 0; i < count; ++i) frames.push_back(first + i);
     return frames;
+}
+
+std::vector<const FrameFile*> files_of(const FramePlan& plan) {
+    std::vector<const FrameFile*> files = {&plan.picture};
+    if (plan.lines) files.push_back(&*plan.lines);
+    return files;
+}
+
+/// With a slash at its end; empty: where the program runs. A pattern stands behind it.
+std::string folder_of(const FrameFile& file) { return file.path.substr(0, file.path.rfind('/') + 1); }
+
+std::unordered_set<std::string> names_in(const std::string& folder) {
+    namespace fs = std::filesystem;
+    std::unordered_set<std::string> names;
+    std::error_code error;
+    for (fs::directory_iterator it(folder.empty() ? "." : folder, error), end; !error && it != end; it.increment(error))
+        names.insert(it->path().filename().string());
+    return names;
 }
 
 }  // namespace
@@ -75,14 +97,35 @@ FramePlan plan_frames(const Arguments& a, const SceneDescription& scene, const s
     return plan;
 }
 
-std::vector<OutputFile> outputs_of(const FramePlan& plan) {
+std::vector<OutputFile> existing_outputs(const FramePlan& plan) {
     std::vector<OutputFile> outputs;
-    for (const double frame : plan.frames) {
-        throw_if_interrupted();
-        outputs.push_back({"--output", plan.picture.path_of(frame)});
-        if (plan.lines) outputs.push_back({"--save-lines", plan.lines->path_of(frame)});
+    for (const FrameFile* file : files_of(plan)) {
+        const std::string option = file->option == "-o" ? "--output" : file->option;
+        if (plan.frames.size() == 1) {
+            outputs.push_back({option, file->path_of(plan.frames.front())});
+            continue;
+        }
+        const std::unordered_set<std::string> names = names_in(folder_of(*file));
+        for (const double frame : plan.frames) {
+            throw_if_interrupted();
+            std::string path = file->path_of(frame);
+            if (names.contains(path.substr(path.rfind('/') + 1))) outputs.push_back({option, std::move(path)});
+        }
     }
     return outputs;
+}
+
+void sweep_outputs(const FramePlan& plan) {
+    for (const FrameFile* file : files_of(plan)) {
+        const std::unordered_set<std::string> names = names_in(folder_of(*file));
+        const bool has_any = std::any_of(names.begin(), names.end(), [](const std::string& name) {
+            return name[0] == '.' && name.find(".burin-") != std::string::npos;
+        });
+        if (!has_any) continue;
+        std::vector<std::string> paths;
+        for (const double frame : plan.frames) paths.push_back(file->path_of(frame));
+        remove_left_behind(paths);
+    }
 }
 
 }  // namespace burin

@@ -37,7 +37,11 @@ void check_names_of_frames(const Arguments& arguments, const std::string& pictur
 /// UsageError.
 FramePlan plan_frames(const Arguments& arguments, const SceneDescription& scene, const std::string& picture);
 
-/// The files of all frames of a plan.
-std::vector<OutputFile> outputs_of(const FramePlan& plan);
+/// The files of a plan's frames that are there already, or the one of a single frame. Folders are read once, whatever
+/// the number of frames.
+std::vector<OutputFile> existing_outputs(const FramePlan& plan);
+
+/// Removes temporary files of the frames' files that dead processes left behind.
+void sweep_outputs(const FramePlan& plan);
 
 }  // namespace burin

@@ -127,11 +127,9 @@ FrameRenderer::FrameRenderer(const Arguments& a, const Method& method, LoadedInp
     const PointSource points = points_of_frames(scene, animation_, input.frame_range);
     views_ = views_of(scene, points, a);
     if (views_.empty()) {
-        const bool has_range = !input.frame_range.empty() && animation_.moves();
-        const std::vector<CameraSettings> first =
-            has_range ? animation_.at(input.frame_range.front()).cameras : std::vector<CameraSettings>();
-        job_camera_.emplace(scene, first.empty() ? scene.cameras : first, points, input.turntable, a);
-        camera_ = job_camera_->at(first.empty() ? scene.cameras : first, scene.picture, plan.frames.front());
+        const std::vector<CameraSettings> first = cameras_to_fit(scene, animation_, input.frame_range);
+        job_camera_.emplace(scene, first, points, input.turntable, a);
+        camera_ = job_camera_->at(first, scene.picture, plan.frames.front());
     }
     const bool moves = !plan.is_at_rest && (animation_.moves() || input.turntable);
     blur_ = blur_of(scene, camera_, a, moves, is_vector(output.format));

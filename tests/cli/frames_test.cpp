@@ -170,6 +170,23 @@ scale = 0.5
     EXPECT_TRUE(fs::exists(folder_.file("all.01.5.exr")));
 }
 
+TEST_F(Frames, NoFrameIsWrittenOverAnInput) {
+    fs::create_hard_link(folder_.file("cube.obj"), folder_.file("o.05.png"));
+    expect_error({"s.toml", "-f", "1-6", "-o", "o.##.png"}, 2, "--output: would overwrite");
+    EXPECT_EQ(content("cube.obj"), kCubeObj);
+}
+
+TEST_F(Frames, AMillionFramesBeginAtOnce) {
+    ProgramOptions little;
+    little.memory_limit = std::size_t{600} << 20;
+    Program program(folder_.path(), {"render", "s.toml", "-f", "1-1000000", "-o", "o.#.png", "-j", "1"}, little);
+    for (int i = 0; i < 9000 && !fs::exists(folder_.file("o.0001.png")); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_TRUE(fs::exists(folder_.file("o.0001.png")));
+    program.send(SIGINT);
+    EXPECT_EQ(program.wait().status, 130);
+}
+
 TEST_F(Frames, SheetsKnowTheFrame) {
     folder_.write(
         "w.toml",
