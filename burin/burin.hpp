@@ -87,6 +87,7 @@ struct View {
     Matrix camera_to_world{};
     double fov_deg = 0;
     double ortho_height = 0;
+    std::array<double, 2> shift{};  ///< with a matrix: of the lens, to the right and up, in heights of the picture
     int frame = 0;
 };
 
@@ -474,6 +475,7 @@ class Scene {
         for (std::size_t i = 0; i < 16; ++i) v.camera_to_world[i] = view.camera_to_world[i];
         v.fov_deg = view.fov_deg;
         v.ortho_height = view.ortho_height;
+        std::copy(view.shift.begin(), view.shift.end(), v.shift);
         v.frame = view.frame;
         Teller teller{options.progress, nullptr};
         burin_options o = {.size = sizeof o,

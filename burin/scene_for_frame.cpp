@@ -46,6 +46,9 @@ std::vector<std::string> SceneForFrame::notes() const {
     std::vector<std::string> notes;
     if (std::string unread = note_on_unread_keys(state_.settings.description().unread_line_keys); !unread.empty())
         notes.push_back(std::move(unread));
+    const bool has_shutter = state_.settings.description().shutter.has_value();
+    if (std::string blur = note_on_missing_blur(has_shutter, frame_.camera, "the library"); !blur.empty())
+        notes.push_back(std::move(blur));
     if (std::string missing = note_on_missing_marks(frame_); !missing.empty()) {
         if (!scene_.sheet)
             missing += "; lines.draw=" + to_string(scene_.lines.classes | LineClass::mark) + " has it, too";

@@ -1,6 +1,9 @@
 #include "cli/blur.h"
 
+#include <cstdio>
+
 #include "base/error.h"
+#include "render/picture_notes.h"
 
 namespace burin {
 
@@ -41,6 +44,11 @@ Blur blur_of(const Scene& scene, const Camera& camera, const Arguments& a, bool 
     }
     if (!moves) blur.shutter.reset();
     return blur;
+}
+
+void note_missing_blur(const Scene& scene, const Camera& camera, const Arguments& a, const char* command) {
+    const std::string note = note_on_missing_blur(scene.shutter.has_value(), camera, command);
+    if (!note.empty() && !a.quiet) std::fprintf(stderr, "burin: note: %s\n", note.c_str());
 }
 
 }  // namespace burin

@@ -12,4 +12,7 @@ void set_lens(const Arguments& arguments, CameraSettings& camera);
 /// shutter is open. Throws UsageError for kinds of files that have no blur, and for options without use.
 Blur blur_of(const Scene& scene, const Camera& camera, const Arguments& arguments, bool moves, bool has_paths);
 
+/// Notes that a command draws a scene without the blur that it has.
+void note_missing_blur(const Scene& scene, const Camera& camera, const Arguments& arguments, const char* command);
+
 }  // namespace burin

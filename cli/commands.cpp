@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/json_writer.h"
+#include "cli/blur.h"
 #include "cli/job.h"
 #include "cli/sheet_refusal.h"
 #include "methods/abuffer.h"
@@ -22,6 +23,7 @@ void run_explain(const Arguments& a) {
     Scene& scene = still.scene;
     if (a.method == "patel") refuse_sheet(scene, "method patel draws no style sheets");
     const Camera& camera = still.camera;
+    note_missing_blur(scene, camera, a, "burin explain");
     empty_copied_objects(scene);
     close_cracks(scene, camera, scene.picture.width, scene.picture.height);
     const Frame frame = frame_of(scene, camera, a);

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/stopwatch.h"
+#include "cli/blur.h"
 #include "cli/commands.h"
 #include "cli/job.h"
 #include "compare/rasterize_svg.h"
@@ -125,6 +126,7 @@ void run_compare(const Arguments& a) {
     View view;
     {
         const Camera& camera = still.camera;
+        note_missing_blur(scene, camera, a, "burin compare");
         empty_copied_objects(scene);
         close_cracks(scene, camera, scene.picture.width, scene.picture.height);
         const Frame frame = frame_of(scene, camera, a);

@@ -18,10 +18,10 @@ constexpr std::size_t kRowsAtOnce = 16;
 
 typedef std::uint16_t EightHalves __attribute__((vector_size(16)));
 
-void add_four(const FourHalves& halves, float* to) {
+void add_four(const FourFloats& values, float* to) {
     FourFloats sum;
     std::memcpy(&sum, to, sizeof sum);
-    sum += floats_from_halves(halves);
+    sum += values;
     std::memcpy(to, &sum, sizeof sum);
 }
 
@@ -29,14 +29,22 @@ void add_four(const FourHalves& halves, float* to) {
 void add_halves(const std::uint16_t* from, std::size_t count, float* to) {
     constexpr std::size_t kEight = 8;
     std::size_t i = 0;
+    std::uint64_t last[2] = {};
+    FourFloats low = {}, high = {};  // of `last`: surfaces are mostly of one colour
     for (; i + kEight <= count; i += kEight) {
         std::uint64_t bits[2];
         std::memcpy(bits, from + i, sizeof bits);
         if ((bits[0] | bits[1]) == 0) continue;
-        const EightHalves halves = std::bit_cast<EightHalves>(bits), zero = {};
-        add_four(std::bit_cast<FourHalves>(__builtin_shufflevector(halves, zero, 0, 8, 1, 9, 2, 10, 3, 11)), to + i);
-        add_four(std::bit_cast<FourHalves>(__builtin_shufflevector(halves, zero, 4, 12, 5, 13, 6, 14, 7, 15)),
-                 to + i + 4);
+        if (bits[0] != last[0] || bits[1] != last[1]) {
+            std::memcpy(last, bits, sizeof last);
+            const EightHalves halves = std::bit_cast<EightHalves>(bits), zero = {};
+            low = floats_from_halves(
+                std::bit_cast<FourHalves>(__builtin_shufflevector(halves, zero, 0, 8, 1, 9, 2, 10, 3, 11)));
+            high = floats_from_halves(
+                std::bit_cast<FourHalves>(__builtin_shufflevector(halves, zero, 4, 12, 5, 13, 6, 14, 7, 15)));
+        }
+        add_four(low, to + i);
+        add_four(high, to + i + 4);
     }
     for (; i < count; ++i) to[i] += float_from_half(from[i]);
 }

@@ -13,6 +13,15 @@ std::string note_on_missing_marks(const Frame& frame) {
            (count == 1 ? "is" : "are") + " missing";
 }
 
+std::string note_on_missing_blur(bool has_shutter, const Camera& camera, const std::string& who) {
+    if (!has_shutter && camera.lens_radius == 0) return {};
+    return who + " draws one moment with all in focus; " +
+           (!has_shutter              ? "lens_radius of the camera changes"
+            : camera.lens_radius == 0 ? "[shutter] changes"
+                                      : "[shutter] and lens_radius of the camera change") +
+           " nothing";
+}
+
 std::string note_on_unread_keys(const std::vector<std::string>& keys) {
     if (keys.empty()) return {};
     std::string names;

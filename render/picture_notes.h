@@ -13,6 +13,8 @@ namespace burin {
 std::string note_on_missing_marks(const Frame& frame);
 /// Keys of [lines], "width", that nothing reads beside a style sheet.
 std::string note_on_unread_keys(const std::vector<std::string>& keys);
+/// A blur that the scene has, and that `who` ("burin explain") does not draw.
+std::string note_on_missing_blur(bool has_shutter, const Camera& camera, const std::string& who);
 /// What a picture of a scene is that the camera does not look at.
 constexpr const char* kNoSurfaceIsSeen = "no sample of the picture sees a surface; does the camera look at the scene?";
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "image/half.h"
 #include "tests/burin/shapes.h"
 
 namespace burin::test::view_test {
@@ -95,6 +96,29 @@ TEST(LibraryView, ACropIsAPartOfThePicture) {
                           std::bit_cast<std::uint32_t>(all[y * 90 + x]));
         }
     }
+}
+
+TEST(LibraryView, AShiftedLensShowsAnotherPartOfTheSameView) {
+    Scene scene = two_cubes();
+    View view{.width = 90, .height = 60};
+    view.camera_to_world = Matrix{1, 0, 0, 0.3, 0, 1, 0, 0.4, 0, 0, 1, 6, 0, 0, 0, 1};
+    const Picture plain = scene.render(view);
+    view.shift = {0.25, -0.5};  // 15 pixels to the right, 30 down
+    const Picture shifted = scene.render(view);
+    const auto all = plain.channel<std::uint16_t>("lines.A"), some = shifted.channel<std::uint16_t>("lines.A");
+    std::size_t drawn = 0;
+    for (std::size_t y = 0; y < 30; ++y) {
+        for (std::size_t x = 0; x < 75; ++x) {
+            // Where samples of strokes lie within a pixel depends on its row.
+            ASSERT_NEAR(float_from_half(some[y * 90 + x]), float_from_half(all[(y + 30) * 90 + x + 15]), 0.01)
+                << x << " " << y;
+            drawn += some[y * 90 + x] != 0;
+        }
+    }
+    EXPECT_GT(drawn, 50u);
+    scene.set_toml("[[camera]]\neye = [0.3, 0.4, 6]\ntarget = [0.3, 0.4, 0]\nshift = [0.25, -0.5]\n");
+    const Picture of_scene = scene.render({.width = 90, .height = 60});
+    EXPECT_EQ(what_is_seen(of_scene), what_is_seen(shifted));
 }
 
 TEST(LibraryView, SizeAndSamplesComeFromTheSceneUnlessTheyAreGiven) {
