@@ -145,7 +145,7 @@ TEST(ExrContainer, MutatedFilesAreReadOrRefused) {
         if (random.integer(0, 7) == 0) mutated.resize(random.bits() % mutated.size());
         try {
             const ExrContainer file = parse_exr_container("x.exr", mutated);
-            for (const ExrPart& part : file.parts) {
+            for (const ContainedPart& part : file.parts) {
                 for (const std::string_view chunk : part.chunks) {
                     ASSERT_GE(chunk.data(), mutated.data());
                     ASSERT_LE(chunk.data() + chunk.size(), mutated.data() + mutated.size());
