@@ -27,6 +27,9 @@ void add_content(const std::string& path, ContentHash& hash) {
 Fingerprints::Fingerprints(const Arguments& a, const LoadedInput& input) : arguments_(a) {
     of_all_.add(kProgram).add(input.hash).add(a.picture_options);
     of_all_.add(input.scene.frame.fps);
+    if (!a.method.empty() && a.method != "abuffer") {  // what fit_depth_ranges() fits to
+        for (const double frame : input.frame_range) of_all_.add(frame);
+    }
     for (const SceneObject& object : input.scene.objects) add(object.to_world, of_all_);
     std::vector<std::string> files = input.files;
     std::sort(files.begin(), files.end());

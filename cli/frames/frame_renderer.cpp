@@ -8,6 +8,7 @@
 #include "base/atomic_file.h"
 #include "base/limit_error.h"
 #include "base/stopwatch.h"
+#include "cli/frames/depth_fit.h"
 #include "cli/render_notes.h"
 #include "cli/sheet_refusal.h"
 #include "cli/sheet_views.h"
@@ -130,6 +131,9 @@ FrameRenderer::FrameRenderer(const Arguments& a, const Method& method, LoadedInp
         const std::vector<CameraSettings> first = cameras_to_fit(scene, animation_, input.frame_range);
         job_camera_.emplace(scene, first, points, input.turntable, a);
         camera_ = job_camera_->at(first, scene.picture, plan.frames.front());
+        // Only these look at depth in steps.
+        if (plan.is_sequence && animation_.moves() && method.name != "abuffer" && !input.frame_range.empty())
+            fit_depth_ranges(animation_, input.frame_range, *job_camera_, scene);
     }
     const bool moves = !plan.is_at_rest && (animation_.moves() || input.turntable);
     blur_ = blur_of(scene, camera_, a, moves, is_vector(output.format));

@@ -109,6 +109,7 @@ Turntable read_turntable(TomlReader& t) {
 }
 
 std::vector<double> read_frame_range(TomlReader& t, std::string_view key) {
+    if (t.is_number(key)) return {*t.number(key, kFrames)};
     const std::optional<std::string> text = t.text(key);
     if (!text) return {};
     try {

@@ -170,6 +170,27 @@ scale = 0.5
     EXPECT_TRUE(fs::exists(folder_.file("all.01.5.exr")));
 }
 
+/// Methods that look at depth in steps have the same range in all frames, whichever are asked for; where that range is
+/// another, files are not taken for the same.
+TEST_F(Frames, DepthRangesAreFittedOnce) {
+    for (const std::string method : {"stencil", "gbuffer"}) {
+        expect_done({"s.toml", "-q", "-f", "1-6", "-o", "all.#.png", "-m", method});
+        expect_done({"s.toml", "-q", "-f", "4", "-o", "one.png", "-m", method});
+        EXPECT_EQ(content("one.png"), content("all.0004.png")) << method;
+        const Arguments job = {"s.toml", "-f", "4", "-o", "all.#.png", "-m", method};
+        EXPECT_EQ(statuses(job), "4 skipped ");
+        std::string longer = kScene;
+        longer.replace(longer.find("1-6"), 3, "1-9");
+        folder_.write("s.toml", longer);
+        EXPECT_EQ(statuses(job), "4 done ");
+        folder_.write("s.toml", kScene);
+    }
+    const Arguments job = {"s.toml", "-f", "4", "-o", "a.#.png"};
+    EXPECT_EQ(statuses(job), "4 done ");
+    folder_.write("s.toml", std::string(kScene).replace(std::string(kScene).find("1-6"), 3, "1-9"));
+    EXPECT_EQ(statuses(job), "4 skipped ");  // nothing of this picture is fitted
+}
+
 TEST_F(Frames, NoFrameIsWrittenOverAnInput) {
     fs::create_hard_link(folder_.file("cube.obj"), folder_.file("o.05.png"));
     expect_error({"s.toml", "-f", "1-6", "-o", "o.##.png"}, 2, "--output: would overwrite");
