@@ -67,7 +67,9 @@ LayerSet layers_with_mean(LayerSet layers) {
     return layers;
 }
 
-bool has_mean(const ChannelFormat& channel) { return channel.type == PixelType::float16; }
+bool has_mean(const ChannelFormat& channel) {
+    return channel.type == PixelType::float16 && !channel.name.starts_with("line.");  // those tell of one line
+}
 
 void BlurSums::Free::operator()(float* memory) const { std::free(memory); }
 

@@ -135,6 +135,15 @@ TEST(BlurSums, AreTheMeanInSinglePrecision) {
     EXPECT_EQ(mean.find("Z")->as<float>()[9], 7);
 }
 
+TEST(BlurSums, ColoursAndCoveragesHaveAMean) {
+    for (const char* name : {"R", "A", "lines.A", "lines_hidden.R", "coverage.crease", "surface.G", "lines_thick.B"})
+        EXPECT_TRUE(has_mean({name, PixelType::float16})) << name;
+    EXPECT_FALSE(has_mean({"Z", PixelType::float32}));
+    EXPECT_FALSE(has_mean({"N.X", PixelType::float32}));
+    EXPECT_FALSE(has_mean({"id.object", PixelType::uint32}));
+    EXPECT_FALSE(has_mean({"line.width", PixelType::float16}));
+}
+
 TEST(BlurSums, TheMeanOfEqualPicturesIsThePicture) {
     const PixelRect rect{0, 0, 256, 128};
     Image all(rect, rect);
