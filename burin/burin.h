@@ -182,7 +182,7 @@ typedef struct burin_options {
     /** Is called about ten times a second with the part that is done, 0 to 1, on the thread that made the call. It
      * returns 0 to go on and anything else to stop. It must not use the scene, but for burin_cancel(). NULL: none. */
     int (*progress)(double done, void* user);
-    void* user; /**< for `progress` */
+    void* user;        /**< for `progress` */
     int32_t for_paths; /**< of burin_find_lines(), not 0: a drawing can be written as a vector file without a style
                             sheet, too: the look of the scene then counts as one, which draws the same lines, though
                             not to the bit */

@@ -107,8 +107,7 @@ FarmJob farm_job(RenderJob& job, const Arguments& a, const std::vector<double>& 
     PictureLoad load = load_of(job, a);
     load.threads = farm.threads;
     constexpr double kReserve = 1.3;
-    farm.memory_bytes =
-        static_cast<std::uint64_t>(kReserve * static_cast<double>(forecast_memory(load).total()));
+    farm.memory_bytes = static_cast<std::uint64_t>(kReserve * static_cast<double>(forecast_memory(load).total()));
     return farm;
 }
 

@@ -144,9 +144,9 @@ class PythonLineShader final : public burin::LineShader {
     std::string needs() const override { return function_.needs(); }
     void shade(const burin::LineSamples& in, burin::LineInk& out) const override {
         const py::gil_scoped_acquire python;
-        const std::pair<const char*, std::span<float>> inks[] = {
-            {"width", out.width_px}, {"offset", out.offset_px}, {"opacity", out.opacity},
-            {"red", out.red},        {"green", out.green},      {"blue", out.blue}};
+        const std::pair<const char*, std::span<float>> inks[] = {{"width", out.width_px},  {"offset", out.offset_px},
+                                                                 {"opacity", out.opacity}, {"red", out.red},
+                                                                 {"green", out.green},     {"blue", out.blue}};
         py::dict ink;
         for (const auto& [name, values] : inks)
             ink[name] = Floats(static_cast<py::ssize_t>(values.size()), values.data());
@@ -272,66 +272,72 @@ PYBIND11_MODULE(_core, module) {
         .def(py::init<std::array<int, 2>, std::array<std::int32_t, 4>, int, const std::string&, const burin::Matrix&,
                       double, double, int, int, std::uint64_t, const std::string&, bool, py::object>(),
              py::arg("size"), py::arg("crop"), py::arg("samples"), py::arg("camera"), py::arg("camera_to_world"),
-             py::arg("fov_deg"), py::arg("ortho_height"), py::arg("frame"), py::arg("threads"),
-             py::arg("memory_bytes"), py::arg("layers"), py::arg("for_paths"), py::arg("progress"));
+             py::arg("fov_deg"), py::arg("ortho_height"), py::arg("frame"), py::arg("threads"), py::arg("memory_bytes"),
+             py::arg("layers"), py::arg("for_paths"), py::arg("progress"));
 
     py::class_<burin::Picture>(module, "Picture")
         .def("channel_names", &burin::Picture::channel_names)
         .def("channel", &channel, py::arg("name"))
         .def("notes", &burin::Picture::notes)
-        .def("pixels",
-             [](const burin::Picture& self, int channels) {
-                 std::int32_t size[2] = {};
-                 burin::checked(burin_picture_size(self.get(), size));
-                 py::array_t<std::uint8_t> pixels(channels == 1 ? std::vector<py::ssize_t>{size[1], size[0]}
-                                                                : std::vector<py::ssize_t>{size[1], size[0], channels});
-                 std::uint8_t* const out = pixels.mutable_data();
-                 const py::gil_scoped_release others_run;
-                 self.pixels(out, channels);
-                 return pixels;
-             },
-             py::arg("channels"))
-        .def("encode",
-             [](const burin::Picture& self, const std::string& format) {
-                 return encoded(self.get(), format, std::nullopt);
-             },
-             py::arg("format"))
-        .def("write",
-             [](const burin::Picture& self, const std::string& path) { write(self.get(), path, std::nullopt); },
-             py::arg("path"));
+        .def(
+            "pixels",
+            [](const burin::Picture& self, int channels) {
+                std::int32_t size[2] = {};
+                burin::checked(burin_picture_size(self.get(), size));
+                py::array_t<std::uint8_t> pixels(channels == 1 ? std::vector<py::ssize_t>{size[1], size[0]}
+                                                               : std::vector<py::ssize_t>{size[1], size[0], channels});
+                std::uint8_t* const out = pixels.mutable_data();
+                const py::gil_scoped_release others_run;
+                self.pixels(out, channels);
+                return pixels;
+            },
+            py::arg("channels"))
+        .def(
+            "encode",
+            [](const burin::Picture& self, const std::string& format) {
+                return encoded(self.get(), format, std::nullopt);
+            },
+            py::arg("format"))
+        .def(
+            "write", [](const burin::Picture& self, const std::string& path) { write(self.get(), path, std::nullopt); },
+            py::arg("path"));
 
     py::class_<burin::Drawing>(module, "Drawing")
         .def("piece_count", &burin::Drawing::piece_count)
         .def("column", &column, py::arg("name"))
-        .def("draw",
-             [](const burin::Drawing& self, const std::optional<std::string>& style, int threads) {
-                 return style ? self.draw(*style, threads) : self.draw(threads);
-             },
-             Unlocked(), py::arg("style"), py::arg("threads"))
-        .def("encode",
-             [](const burin::Drawing& self, const std::string& format, const std::optional<std::string>& style) {
-                 return encoded(self.get(), format, style);
-             },
-             py::arg("format"), py::arg("style"))
-        .def("write",
-             [](const burin::Drawing& self, const std::string& path, const std::optional<std::string>& style) {
-                 write(self.get(), path, style);
-             },
-             py::arg("path"), py::arg("style"));
+        .def(
+            "draw",
+            [](const burin::Drawing& self, const std::optional<std::string>& style, int threads) {
+                return style ? self.draw(*style, threads) : self.draw(threads);
+            },
+            Unlocked(), py::arg("style"), py::arg("threads"))
+        .def(
+            "encode",
+            [](const burin::Drawing& self, const std::string& format, const std::optional<std::string>& style) {
+                return encoded(self.get(), format, style);
+            },
+            py::arg("format"), py::arg("style"))
+        .def(
+            "write",
+            [](const burin::Drawing& self, const std::string& path, const std::optional<std::string>& style) {
+                write(self.get(), path, style);
+            },
+            py::arg("path"), py::arg("style"));
 
     py::class_<burin::Scene>(module, "Scene")
         .def(py::init<>())
         .def("add_file", &burin::Scene::add_file, Unlocked(), py::arg("path"))
         .def("add_text", &burin::Scene::add_text, Unlocked(), py::arg("toml"), py::arg("base_folder"))
         .def("notes", &burin::Scene::notes)
-        .def("add_material",
-             [](burin::Scene& self, const std::string& name, const std::array<float, 3>& color, float opacity) {
-                 return self.add(burin::Material{name, color, opacity});
-             },
-             py::arg("name"), py::arg("color"), py::arg("opacity"))
+        .def(
+            "add_material",
+            [](burin::Scene& self, const std::string& name, const std::array<float, 3>& color, float opacity) {
+                return self.add(burin::Material{name, color, opacity});
+            },
+            py::arg("name"), py::arg("color"), py::arg("opacity"))
         .def("add_mesh", &add_mesh, py::arg("name"), py::arg("points"), py::arg("corners"), py::arg("polygon_sizes"),
-             py::arg("polygon_materials"), py::arg("polygon_objects"), py::arg("object_names"),
-             py::arg("marked_edges"), py::arg("corner_uv"), py::arg("point_colors"), py::arg("attributes"))
+             py::arg("polygon_materials"), py::arg("polygon_objects"), py::arg("object_names"), py::arg("marked_edges"),
+             py::arg("corner_uv"), py::arg("point_colors"), py::arg("attributes"))
         .def("remove_mesh", &burin::Scene::remove_mesh, py::arg("mesh"))
         .def("add_object", &burin::Scene::add_object, py::arg("mesh"), py::arg("name"), py::arg("to_world"),
              py::arg("material"))
@@ -343,29 +349,30 @@ PYBIND11_MODULE(_core, module) {
         .def("set", &burin::Scene::set, py::arg("key_and_value"))
         .def("set_toml", &burin::Scene::set_toml, py::arg("toml"))
         .def("set_style", &burin::Scene::set_style, py::arg("text_or_name"))
-        .def("add_line_shader",
-             [](burin::Scene& self, const std::string& name, std::vector<std::string> variables,
-                py::function function) {
-                 self.add_line_shader(name,
-                                      std::make_shared<PythonLineShader>(std::move(variables), std::move(function)));
-             },
-             py::arg("name"), py::arg("variables"), py::arg("function"))
-        .def("add_line_test",
-             [](burin::Scene& self, const std::string& name, std::vector<std::string> variables,
-                py::function function) {
-                 self.add_line_test(name,
-                                    std::make_shared<PythonLineTest>(std::move(variables), std::move(function)));
-             },
-             py::arg("name"), py::arg("variables"), py::arg("function"))
-        .def("render", [](burin::Scene& self, const Work& work) { return self.render(work.view, work.options); },
-             Unlocked(), py::arg("work"))
-        .def("find_lines",
-             [](burin::Scene& self, const Work& work) { return self.find_lines(work.view, work.options); }, Unlocked(),
-             py::arg("work"))
-        .def("explain",
-             [](burin::Scene& self, int x, int y, const std::string& format, const Work& work) {
-                 return self.explain(x, y, work.view, format, work.options);
-             },
-             Unlocked(), py::arg("x"), py::arg("y"), py::arg("format"), py::arg("work"))
+        .def(
+            "add_line_shader",
+            [](burin::Scene& self, const std::string& name, std::vector<std::string> variables, py::function function) {
+                self.add_line_shader(name,
+                                     std::make_shared<PythonLineShader>(std::move(variables), std::move(function)));
+            },
+            py::arg("name"), py::arg("variables"), py::arg("function"))
+        .def(
+            "add_line_test",
+            [](burin::Scene& self, const std::string& name, std::vector<std::string> variables, py::function function) {
+                self.add_line_test(name, std::make_shared<PythonLineTest>(std::move(variables), std::move(function)));
+            },
+            py::arg("name"), py::arg("variables"), py::arg("function"))
+        .def(
+            "render", [](burin::Scene& self, const Work& work) { return self.render(work.view, work.options); },
+            Unlocked(), py::arg("work"))
+        .def(
+            "find_lines", [](burin::Scene& self, const Work& work) { return self.find_lines(work.view, work.options); },
+            Unlocked(), py::arg("work"))
+        .def(
+            "explain",
+            [](burin::Scene& self, int x, int y, const std::string& format, const Work& work) {
+                return self.explain(x, y, work.view, format, work.options);
+            },
+            Unlocked(), py::arg("x"), py::arg("y"), py::arg("format"), py::arg("work"))
         .def("cancel", &burin::Scene::cancel, Unlocked());
 }

@@ -272,6 +272,11 @@ DrawnFrame FrameRenderer::draw(const OutputOptions& output, Progress* progress) 
     drawn.times.load_s = std::exchange(pose_s_, 0) + watch.lap();
     bool in_bands = false;
     const LayerSet layers = layers_of_picture(drawn.frame, output, in_bands);
+    if (drawn.sub_frames > 1 && (layers.crypto.has_any() || layers.line || layers.motion)) {
+        throw UsageError(
+            "--layers: crypto, line and motion are of sharp pictures in this version; render them by "
+            "themselves, without shutter and lens");
+    }
     // For line.qi. It changes no picture; a sheet asks for what it needs.
     if (layers.line && !scene().sheet) drawn.frame.needs.tells_invisibility = drawn.frame.needs.behind();
     if (layers.motion) find_next(drawn.frame);

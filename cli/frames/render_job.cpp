@@ -12,9 +12,7 @@
 namespace burin {
 namespace {
 
-const Method& method_of(const Arguments& a) {
-    return a.method.empty() ? methods().front() : *find_method(a.method);
-}
+const Method& method_of(const Arguments& a) { return a.method.empty() ? methods().front() : *find_method(a.method); }
 
 /// Files that a job writes once.
 std::vector<OutputFile> files_of_job(const Arguments& a) {

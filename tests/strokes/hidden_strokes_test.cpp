@@ -45,9 +45,9 @@ TEST(HiddenStrokes, HiddenLinesAloneAreDrawnAsAmongOthers) {
         const auto drawn = [&] {
             Film film(rect, rect, layers, LineClassSet::all());
             for (int y = 0; y < kSize; ++y) film.put_background(0, kSize, y);
-            HiddenStrokes strokes(frame, best_kernels(), 1, rect, {hidden});
+            HiddenStrokes strokes(frame, best_kernels(), 1, rect, {hidden}, false);
             EXPECT_TRUE(strokes.has_any(0));
-            strokes.draw_below(0, 0, visible, film);
+            strokes.draw_below(0, 0, visible, film, nullptr);
             return film;
         };
         const Film alone = drawn();
