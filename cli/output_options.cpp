@@ -30,7 +30,8 @@ OutputOptions output_options(const Arguments& a) {
             "; burin writes " + suffixes_of_formats());
     }
     refuse_exr_options(a, options.format);
-    if (a.command != Command::render && FramePattern::find(options.path, FramePattern::SingleHash::letter))
+    if (a.command != Command::render && a.command != Command::submit &&
+        FramePattern::find(options.path, FramePattern::SingleHash::letter))
         throw UsageError("--output: a pattern for frames is for burin render --frames");
     if (writes_stats_file(a) && is_one_file(a.stats, options.path)) {
         throw UsageError("--stats: would overwrite " + options.path + "; give another name");

@@ -25,17 +25,21 @@ band=$((SLURM_ARRAY_TASK_ID % @bands@))
 case $((SLURM_ARRAY_TASK_ID / @bands@)) in
 @frames_of_chunks@esac
 @output_of_band@
-echo "task $SLURM_ARRAY_TASK_ID: frames $frames, start $((${SLURM_RESTART_COUNT:-0} + 1))" @program @render @arguments
-                                           @ "$@@" -
-                                           f "$frames" - o "$output" --skip - existing-- progress alf -
-                                           j "${SLURM_CPUS_PER_TASK:-@threads@}" --stats @logs_quoted @ /
-                                               "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID.jsonl" & child =
-                                               $ !trap 'kill -TERM $child' TERM INT wait $child status =
-                                                   $ ?
-#A signal ends `wait`, not yet the program.
-                                                     while[$status - gt 128] && kill - 0 $child 2 > / dev / null;
-do wait $child status = $ ? done if[$status - eq 1] && ["${SLURM_RESTART_COUNT:-0}" - lt @retries @]; then
-#The number of the array alone would mean all of its tasks.Slurm ends this task, and begins it anew.
+echo "task $SLURM_ARRAY_TASK_ID: frames $frames, start $((${SLURM_RESTART_COUNT:-0} + 1))"
+@program@ render@arguments@ "$@@" -f "$frames" -o "$output" \
+    --skip-existing --progress alf -j "${SLURM_CPUS_PER_TASK:-@threads@}" \
+    --stats @logs_quoted@/"${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID.jsonl" &
+child=$!
+trap 'kill -TERM $child' TERM INT
+wait $child
+status=$?
+# A signal ends `wait`, not yet the program.
+while [ $status -gt 128 ] && kill -0 $child 2>/dev/null; do
+    wait $child
+    status=$?
+done
+if [ $status -eq 1 ] && [ "${SLURM_RESTART_COUNT:-0}" -lt @retries@ ]; then
+    # The number of the array alone would mean all of its tasks. Slurm ends this task, and begins it anew.
     scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID" && sleep 60
 fi
 exit $status

@@ -76,7 +76,7 @@ def _polygons(polygons: Any) -> Array:
 
 def _of_trimesh(mesh: Any) -> MeshArrays:
     arrays = MeshArrays(np.asarray(mesh.vertices), np.asarray(mesh.faces))
-    visual = getattr(mesh, "visual", None)
+    visual: Any = getattr(mesh, "visual", None)
     if getattr(visual, "kind", None) == "vertex":
         arrays.colors = _linear(np.asarray(visual.vertex_colors)[:, :3] / 255.0)
     return arrays

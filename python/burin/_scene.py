@@ -253,7 +253,7 @@ class Scene:
         progress: Optional[Progress] = None,
         for_paths: bool = False,
     ) -> _core.Work:
-        if sum(given is not None and given != "" for given in (camera, matrix, eye)) > 1:
+        if bool(camera) + (matrix is not None) + (eye is not None) > 1:
             raise UsageError("camera, matrix and eye: give one of them")
         if eye is None and target is not None:
             raise UsageError("target: needs eye")
@@ -283,7 +283,8 @@ class Scene:
             return _vector("target", target)
         if not np.all(np.isfinite(self._low)):
             raise UsageError("target: is needed beside eye, for no mesh was added")
-        return (self._low + self._high) / 2
+        middle: npt.NDArray[np.float64] = (self._low + self._high) / 2
+        return middle
 
 
 def draw(

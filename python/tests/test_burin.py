@@ -135,7 +135,7 @@ def test_points_far_from_the_origin_keep_their_precision():
         ((POINTS.astype(complex), QUADS), burin.UsageError, "points: must be real numbers"),
         ((POINTS.astype(str), QUADS), burin.UsageError, "points: must be real numbers"),
         ((POINTS, [[0, 1, 2], [0, 1, 2, 3]]), burin.UsageError, "different numbers of corners"),
-        (burin.MeshArrays(POINTS, QUADS.ravel(), np.full(5, 4)), burin.InputError, "polygon_sizes"),
+        (burin.MeshArrays(POINTS, QUADS.ravel(), np.full(5, 4)), burin.InputError, "have 20 corners, but there are 24"),
         (burin.MeshArrays(POINTS, QUADS, uv=np.zeros((3, 2))), burin.UsageError, r"uv: must have the shape \(24, 2\)"),
         (burin.MeshArrays(POINTS, QUADS, colors=np.zeros(8)), burin.UsageError, "colors: must have the shape"),
         (burin.MeshArrays(POINTS, QUADS, attributes={"a": np.zeros(7)}), burin.UsageError, "a: must have the shape"),
@@ -250,10 +250,10 @@ def test_materials_and_attributes_reach_style_sheets():
     mesh = burin.MeshArrays(POINTS, QUADS, attributes={"heat": heat}, colors=np.ones((8, 3)) * (1, 0, 0))
     scene = burin.Scene(mesh)
     sheet = "[style.a]\n{}\n[[set]]\nname = 's'\nclasses = ['crease', 'silhouette']\nstyle = 'a'\n"
-    scene.set_style(sheet.format('color = "Cv"'))
+    scene.set_style(sheet.format('color = "=Cv"'))
     red = scene.render(SIZE)["lines"]
     assert red[..., 0].max() > 0.9 and red[..., 1].max() == 0
-    scene.set_style(sheet.format("width = \"1 + 4 * attr('heat')\""))
+    scene.set_style(sheet.format("width = \"=1 + 4 * attr(\\\"heat\\\")\""))
     assert scene.render(SIZE).png()
 
 

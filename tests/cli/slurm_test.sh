@@ -4,7 +4,11 @@
 # Ends with 77 (skipped) only where Slurm is not installed: scripts/install-dependencies installs it.
 set -euo pipefail
 burin=$1
-fail() { echo "slurm_test: $1" >&2; exit 1; }
+fail() {
+    [ -d "${run:-}" ] && tail -n 20 "$run"/shot/*/burin-logs/*.txt >&2
+    echo "slurm_test: $1" >&2
+    exit 1
+}
 for program in munged slurmctld slurmd sbatch scontrol squeue; do
     command -v "$program" >/dev/null || PATH=$PATH:/usr/sbin
     command -v "$program" >/dev/null || { echo "slurm_test: skipped, there is no $program (install slurm-wlm)"; exit 77; }
@@ -99,6 +103,7 @@ printf "$cube" >part.obj
 submit() { "$burin" submit shot.toml -r 320x192 "$@"; }
 
 # Nothing is submitted by --dry-run.
+mkdir dry
 submit -o dry/out.####.exr --chunk 4 --dry-run >dry.txt || fail "--dry-run"
 grep -q '^#SBATCH --array=0-4$' dry.txt || fail "--dry-run does not print the script"
 [ -z "$(squeue -h)" ] || fail "--dry-run has submitted"
@@ -113,7 +118,7 @@ same() {
     [ -z "$(find "$1" -name '.*burin-*')" ] || fail "$1: temporary files are left"
 }
 
-# A task that fails is tried again: its output folder cannot be written at first.
+# All frames, in chunks.
 mkdir farm
 submit -o farm/out.####.exr --chunk 4 >jobs.txt || fail "submit"
 wait_for_jobs 120
