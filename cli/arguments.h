@@ -82,7 +82,6 @@ struct Arguments {
     std::optional<double> fps;
     std::optional<int> turntable_frames;
     bool skips_existing = false, keeps_going = false;
-    /// All options of the command line that change the picture, as they were typed.
     std::vector<std::string> bands;            ///< assemble: files to be joined
     int frames_of_a_task = 8, band_count = 1;  ///< submit
     int retries = 1;                           ///< submit: of a task that failed
@@ -90,6 +89,7 @@ struct Arguments {
     std::vector<std::string> sbatch_options;
     std::vector<std::string> render_arguments;  ///< submit: what a task's `render` gets of the command line
     std::vector<std::string> submit_arguments;  ///< submit: the command line but for its frames
+    /// All options of the command line that change the picture, as they were typed.
     std::string picture_options;
     std::string stats;
     bool json = false;

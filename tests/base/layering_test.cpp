@@ -60,6 +60,7 @@ const std::map<std::string, std::set<std::string>> kLibraryFiles = {
     {"toml\\+\\+/", {"scene/toml_reader.h"}},
     {"CLI/", {"cli/arguments.cpp"}},
     {"embree3/", {"methods/reference/embree_scene.cpp"}},
+    {"pybind11/", {"python/core.cpp"}},
 };
 
 /// `prefix`: of the folders' names in includes.

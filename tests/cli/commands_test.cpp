@@ -21,7 +21,8 @@ TEST(Commands, HelpNamesCommandsAndOptions) {
     const ProgramResult help = run_burin(folder.path(), {"--help"});
     EXPECT_EQ(help.status, 0);
     EXPECT_EQ(help.err, "");
-    for (const char* command : {"render", "info", "explain", "methods", "compare"}) {
+    for (const char* command :
+         {"render", "restyle", "compare", "info", "explain", "methods", "styles", "submit", "assemble"}) {
         EXPECT_TRUE(contains(help.out, command)) << command;
         const ProgramResult own = run_burin(folder.path(), {command, "--help"});
         EXPECT_EQ(own.status, 0);
