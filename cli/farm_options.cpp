@@ -13,6 +13,7 @@ void fill_farm_options(const FarmTexts& t, Arguments& a) {
     if (!t.bands.empty()) a.band_count = integer("--bands", t.bands, 1, kMostBands);
     if (!t.retries.empty()) a.retries = integer("--retries", t.retries, 0, kMostRetries);
     a.is_dry_run = t.is_dry_run;
+    if (a.command == Command::render && a.json && !a.is_dry_run) fail("--json", "needs --dry-run");
     a.sbatch_options = t.sbatch_options;
     if (a.band_count <= 1) return;
     if (lower_extension(a.output) != ".exr") fail("--bands", "EXR only");

@@ -151,7 +151,9 @@ std::string submitted(const std::string& sbatch, const std::string& script, std:
 
 void run_submit(const Arguments& a) {
     RenderJob job(a);
-    if (!job.plan().is_sequence) throw UsageError("--frames: is needed, or [frames] range in the scene");
+    if (!job.plan().is_sequence) {
+        throw UsageError("--frames: is needed, or [frames] range in the scene and a pattern in -o, as out.####.exr");
+    }
     const std::vector<double> missing = job.missing_frames();
     if (missing.empty()) {
         std::printf("all %zu frames are there\n", job.plan().frames.size());

@@ -158,7 +158,7 @@ std::vector<JoinedChunk> joined_chunks(const std::vector<Band>& bands, std::vect
 
 }  // namespace
 
-void join_exr_bands(const std::vector<std::string>& band_paths, const std::string& output_path) {
+JoinedBands join_exr_bands(const std::vector<std::string>& band_paths, const std::string& output_path) {
     if (band_paths.empty()) throw InputError("there are no bands to join");
     std::vector<Band> bands;
     for (const std::string& path : band_paths) {
@@ -192,6 +192,10 @@ void join_exr_bands(const std::vector<std::string>& band_paths, const std::strin
     }
     for (const Band& band : bands) band.file->check_is_whole();
     file.commit();
+    const ContainedPart& first = bands.front().container.parts.front();
+    JoinedBands joined{first.display, first.data, first.text("burin/fingerprint").has_value()};
+    joined.data.y1 = bands.back().data().y1;
+    return joined;
 }
 
 }  // namespace burin

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "image/image.h"
+
 namespace burin {
 
 /// Joins EXR files of bands of one picture, as `--crop 0,Y0,W,Y1` makes them, to one file: chunks are copied as they
@@ -11,7 +13,13 @@ namespace burin {
 /// rendered at once. Bands may come in any order.
 ///
 /// Throws InputError, which names the file, for what is no whole EXR, and for bands of other headers, other columns,
-/// with gaps, or over each other. The output appears only when it is complete.
-void join_exr_bands(const std::vector<std::string>& band_paths, const std::string& output_path);
+/// with gaps, or over each other. The output appears only when it is complete. Bands that no fingerprint tells apart
+/// may be of different scenes.
+struct JoinedBands {
+    PixelRect display;             ///< display window
+    PixelRect data;                ///< data window of the joined file
+    bool has_fingerprint = false;  ///< by which bands are known to be of one scene
+};
+JoinedBands join_exr_bands(const std::vector<std::string>& band_paths, const std::string& output_path);
 
 }  // namespace burin

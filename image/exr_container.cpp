@@ -66,16 +66,16 @@ int rows_of_compression(unsigned char number) {
     return number < rows.size() ? rows[number] : 0;
 }
 
-PixelRect window_of(const ContainedPart& part, ByteReader& reader) {
-    const ContainedAttribute* const window = part.find("dataWindow");
-    if (window == nullptr || window->type != "box2i" || window->value.size() != 16) reader.fail("it has no dataWindow");
+PixelRect window_of(const ContainedPart& part, const std::string& name, ByteReader& reader) {
+    const ContainedAttribute* const window = part.find(name);
+    if (window == nullptr || window->type != "box2i" || window->value.size() != 16) reader.fail("it has no " + name);
     std::array<std::int32_t, 4> corners{};
     std::memcpy(corners.data(), window->value.data(), 16);
     constexpr std::int32_t kFarthest = 1 << 28;
     for (const std::int32_t c : corners) {
-        if (c <= -kFarthest || c >= kFarthest) reader.fail("its dataWindow is beyond what pictures have");
+        if (c <= -kFarthest || c >= kFarthest) reader.fail("its " + name + " is beyond what pictures have");
     }
-    if (corners[2] < corners[0] || corners[3] < corners[1]) reader.fail("its dataWindow is empty");
+    if (corners[2] < corners[0] || corners[3] < corners[1]) reader.fail("its " + name + " is empty");
     return {corners[0], corners[1], corners[2] + 1, corners[3] + 1};
 }
 
@@ -91,7 +91,8 @@ ContainedPart read_header(ByteReader& reader, bool is_named_kind, std::uint32_t 
         attribute.value = reader.take(static_cast<std::uint64_t>(size), "an attribute's value");
         part.attributes.push_back(attribute);
     }
-    part.data = window_of(part, reader);
+    part.display = window_of(part, "displayWindow", reader);
+    part.data = window_of(part, "dataWindow", reader);
     const ContainedAttribute* const compression = part.find("compression");
     if (compression == nullptr || compression->value.size() != 1) reader.fail("it has no compression");
     part.rows_per_chunk = rows_of_compression(static_cast<unsigned char>(compression->value[0]));

@@ -22,7 +22,7 @@ struct ContainedAttribute {
 /// A part of scan lines, flat or deep.
 struct ContainedPart {
     std::vector<ContainedAttribute> attributes;  ///< in the file's order
-    PixelRect data;                              ///< data window
+    PixelRect display, data;                     ///< windows
     int rows_per_chunk = 1;
     bool is_deep = false;
     std::vector<std::string_view> chunks;  ///< whole ones, with what stands in front of their data, from the top

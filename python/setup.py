@@ -21,17 +21,21 @@ class BuildWithCMake(build_ext):
             raise SystemExit(f"{os.path.dirname(HERE)} is not the source of burin; run pip install ./python there")
         source = os.path.dirname(os.path.realpath(project))
         build = os.environ.get("BURIN_BUILD_FOLDER") or os.path.join(source, "build", "release")
-        configure = ["cmake", "-S", source, "-B", build, "-DBURIN_PYTHON=ON", f"-DPython_EXECUTABLE={sys.executable}"]
+        configure = ["cmake", "-S", source, "-B", build, "-DBURIN_PYTHON=ON"]
         if not os.path.exists(os.path.join(build, "CMakeCache.txt")):
-            configure += ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DBURIN_TESTS=OFF"]
+            base = os.path.realpath(sys.executable)  # that of an environment may be gone tomorrow
+            configure += ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DBURIN_TESTS=OFF", f"-DPython_EXECUTABLE={base}"]
         subprocess.check_call(configure)
         try:
             subprocess.check_call(["cmake", "--build", build, "--target", "burin_python", "burin_oiio", "burin_draco"])
         except subprocess.CalledProcessError:
             raise SystemExit("burin: the module could not be built; scripts/install-dependencies installs what it needs")
+        module = os.path.join(build, "python", os.path.basename(self.get_ext_filename(extension.name)))
+        if not os.path.exists(module):
+            raise SystemExit(f"burin: {build} is for another Python; set BURIN_BUILD_FOLDER to a new folder")
         target = os.path.dirname(os.path.abspath(self.get_ext_fullpath(extension.name)))
         os.makedirs(target, exist_ok=True)
-        shutil.copy(os.path.join(build, "python", os.path.basename(self.get_ext_filename(extension.name))), target)
+        shutil.copy(module, target)
         for module in ("burin_oiio.so", "burin_draco.so"):  # are loaded from beside the library, when TIFF or Draco is
             shutil.copy(os.path.join(build, "bin", module), target)
 

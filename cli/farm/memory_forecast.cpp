@@ -28,6 +28,12 @@ std::uint64_t bytes_per_pixel(const LayerSet& layers, int classes) {
            number(layers.motion, 8);
 }
 
+/// Layers of colours.
+std::uint64_t color_layers(const LayerSet& layers) {
+    return std::uint64_t{layers.beauty} + std::uint64_t{layers.lines} + std::uint64_t{layers.surface} +
+           std::uint64_t{layers.lines_hidden} + layers.line_sets.size();
+}
+
 std::uint64_t pixel_count(PixelRect area) {
     return static_cast<std::uint64_t>(area.width()) * static_cast<std::uint64_t>(area.height());
 }
@@ -47,6 +53,10 @@ MemoryForecast forecast_memory(const PictureLoad& load) {
         if (load.format == OutputFormat::png || load.format == OutputFormat::tiff)
             forecast.film += kBytesPerDisplayPixel * pixels;
     }
+    // Shares of owners are kept beside the film; a sum has a number in single precision for each of half precision.
+    constexpr std::uint64_t kBytesOfOwners = 16;
+    if (load.layers.crypto.has_any() || load.layers.line) forecast.film += kBytesOfOwners * pixels;
+    if (load.is_blurred) forecast.film += 2 * kBytesPerColor * pixels * color_layers(load.layers);
     forecast.film *= static_cast<std::uint64_t>(load.frames_at_once);
     const std::uint64_t method =
         kBytesPerThread * static_cast<std::uint64_t>(load.threads) + (load.keeps_all_lines ? kBytesOfAllLines : 0);

@@ -19,6 +19,7 @@ struct PictureLoad {
     OutputFormat format = OutputFormat::exr;
     int threads = 1;
     std::uint64_t cap_bytes = 0;  ///< --memory; 0: none
+    bool is_blurred = false;      ///< a mean of sub-frames
     int frames_at_once = 1;       ///< 2 if one is written while the next one is drawn
 };
 

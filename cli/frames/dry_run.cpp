@@ -24,6 +24,8 @@ PictureLoad load_of(RenderJob& job, const Arguments& a) {
     for (const Mesh& mesh : scene.meshes) load.triangles += mesh.triangles.size();
     load.area = crop_of(a, scene.picture.width, scene.picture.height);
     load.classes = kLineClassCount;
+    load.is_blurred = job.renderer().is_blurred();
+    if (load.is_blurred) load.is_in_bands = false;
     load.keeps_all_lines = scene.sheet || draws_hidden_lines(scene);
     load.format = job.output().format;
     load.threads = resolve_thread_count(a.threads);

@@ -152,6 +152,7 @@ FrameRenderer::FrameRenderer(const Arguments& a, const Method& method, LoadedInp
     }
     const bool moves = !plan.is_at_rest && (animation_.moves() || input.turntable);
     blur_ = blur_of(scene, camera_, a, moves, is_vector(output.format));
+    if (!views_.empty()) blur_ = {};  // it was refused if it is more than one sub-frame
     pose_s_ = watch.seconds();
 }
 
@@ -328,7 +329,12 @@ DrawnFrame FrameRenderer::draw(const OutputOptions& output, Progress* progress) 
 void FrameRenderer::find_next(Frame& frame) {
     if (!animation_.moves() || plan_.is_at_rest) return;
     const double number = scene().frame.number + 1;
-    next_change_ = animation_.at(number);
+    try {
+        next_change_ = animation_.at(number);
+    } catch (const InputError& error) {
+        note("the layer motion is 0, for the next frame cannot be read: " + std::string(error.what()));
+        return;
+    }
     const bool has_cameras = !next_change_.cameras.empty();
     const Camera camera = job_camera_->at(has_cameras ? next_change_.cameras : first_cameras_, scene().picture, number);
     std::vector<const Mesh*> meshes(scene().objects.size(), nullptr);

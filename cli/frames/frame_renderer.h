@@ -57,6 +57,8 @@ class FrameRenderer {
     /// it is drawn. Throws InputError and UsageError.
     LayerSet layers_of_first_frame(const OutputOptions& output, bool& in_bands);
 
+    /// Whether frames may be means of several sub-frames.
+    bool is_blurred() const { return blur_.is_asked_for() && blur_.samples != 1; }
     /// Whether frames change more than their number.
     bool moves() const { return animation_.moves(); }
     const Scene& scene() const { return posed_.scene(); }

@@ -144,11 +144,15 @@ std::vector<double> ModelSequence::numbers() const {
     return found;
 }
 
+bool ModelSequence::has_file(double number) const {
+    std::error_code error;
+    return std::filesystem::exists(settings_.pattern.path_of(number), error);
+}
+
 /// The file of a number that is whole.
 std::string ModelSequence::file_for(double frame, double number) const {
     const std::string path = settings_.pattern.path_of(number);
-    std::error_code error;
-    if (std::filesystem::exists(path, error)) return path;
+    if (has_file(number)) return path;
     const std::string of_frame =
         "frame " + text_of_frame(frame) + " of object \"" + printable(settings_.object, 200) + "\"";
     if (!settings_.holds_missing) throw InputError(path + ": no such file (" + of_frame + ")");
@@ -159,9 +163,14 @@ std::string ModelSequence::file_for(double frame, double number) const {
 }
 
 ModelSequence::Shown ModelSequence::files_of(double frame) const {
-    const double number = frame + settings_.frame_offset, whole = std::floor(number);
+    const double number = frame + settings_.frame_offset, whole = std::floor(number), nearest = std::round(number);
+    if (nearest == number) return {file_for(frame, number), {}, 0};
+    // A shutter that is open before the first file, or behind the last one, sees that file.
+    const double other = nearest == whole ? whole + 1 : whole;
+    const std::string file = file_for(frame, nearest);
+    if (!settings_.holds_missing && !has_file(other)) return {file, {}, 0};
     Shown shown{file_for(frame, whole), {}, number - whole};
-    if (shown.part > 0) shown.later = file_for(frame, whole + 1);
+    shown.later = file_for(frame, whole + 1);
     if (shown.later == shown.file) shown.later.clear();
     return shown;
 }

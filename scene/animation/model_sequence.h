@@ -25,7 +25,8 @@ struct SequenceSettings {
 };
 
 /// ModelSequence is a model per frame, each in a file of its own. Between two of them vertices lie between, if both
-/// have the same polygons; if not, the earlier one is held.
+/// have the same polygons; if not, the earlier one is held. Before the first and behind the last of them, where a
+/// shutter may be open, the nearest one is held.
 ///
 /// A scene has the same objects and materials in all its frames: those of the file that it is loaded with. Objects of
 /// another file stand for those of the same name, and, where names differ, of the same place in the file; what that
@@ -50,6 +51,7 @@ class ModelSequence : public ModelMotion {
     };
     Shown files_of(double frame) const;
     std::string file_for(double frame, double number) const;
+    bool has_file(double number) const;
     std::vector<double> numbers() const;
     Source read(const std::string& path) const;
     Model model_at(double frame, std::vector<std::string>& notes) const;

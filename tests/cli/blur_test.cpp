@@ -107,6 +107,15 @@ TEST_F(Blur, FramesThreadsAndAnyMethod) {
     }
 }
 
+TEST_F(Blur, ViewsOfASheetAreSharp) {
+    folder_.write("views.toml", std::string("[shutter]\n") + kMoving);
+    for (const char* name : {"a.svg", "a.png"}) {
+        const ProgramResult result = run_burin(folder_.path(), {"render", "views.toml", "-r", "64x64", "-q", "--views",
+                                                                "front,top", "--blur-samples", "1", "-o", name});
+        EXPECT_EQ(result.status, 0) << result.err;
+    }
+}
+
 TEST_F(Blur, MistakesAreNamed) {
     const std::string still = "[[object]]\nshape = \"box\"\n";
     const auto expect = [&](const std::string& scene, Arguments options, int status, const std::string& words) {

@@ -1,0 +1,166 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/cli/program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace burin::farm_test {
+namespace {
+
+using test::ProgramResult;
+using test::read_file;
+using test::run_burin;
+using test::TemporaryFolder;
+
+constexpr const char* kShot =
+    "[turntable]\nframes = 12\n[[object]]\nname = \"box\"\nshape = \"box\"\n[[object]]\nname = \"ball\"\n"
+    "shape = \"sphere\"\ntranslate = [0.6, 0.2, 0.4]\n";
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+    return count;
+}
+
+std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+TEST(Assemble, BandsOfAllKindsOfFilesAreTheBytesOfTheWhole) {
+    const TemporaryFolder folder;
+    folder.write("shot.toml", kShot);
+    const std::vector<std::vector<std::string>> looks = {{},
+                                                         {"--hidden", "dashed"},
+                                                         {"--layers", "beauty,lines,Z,crypto,line", "--parts"},
+                                                         {"--compression", "zips"},
+                                                         {"--style", "technical"},
+                                                         {"--lens", "0.05", "--blur-samples", "3"}};
+    for (const std::vector<std::string>& look : looks) {
+        SCOPED_TRACE(look.empty() ? "plain" : look.back());
+        const auto render = [&](const std::string& name, const std::vector<std::string>& crop) {
+            const ProgramResult result = run_burin(
+                folder.path(), joined(joined({"render", "shot.toml", "-r", "90x70", "-q", "-o", name}, look), crop));
+            ASSERT_EQ(result.status, 0) << result.err;
+        };
+        render("whole.exr", {});
+        render("top.exr", {"--crop", "0,0,90,32"});
+        render("middle.exr", {"--crop", "0,32,90,48"});
+        render("bottom.exr", {"--crop", "0,48,90,70"});
+        const ProgramResult result =
+            run_burin(folder.path(), {"assemble", "-o", "joined.exr", "bottom.exr", "top.exr", "middle.exr"});
+        EXPECT_EQ(result.status, 0) << result.err;
+        EXPECT_TRUE(result.err.starts_with("burin: note: the bands have no fingerprint")) << result.err;
+        EXPECT_TRUE(read_file(folder.file("joined.exr")) == read_file(folder.file("whole.exr")));
+    }
+}
+
+TEST(Assemble, WhatIsMissingAboveAndBelowIsNoted) {
+    const TemporaryFolder folder;
+    folder.write("shot.toml", kShot);
+    ASSERT_EQ(run_burin(folder.path(), {"render", "shot.toml", "-r", "32x48", "-q", "--skip-existing", "--crop",
+                                        "0,16,32,32", "-o", "a.exr"})
+                  .status,
+              0);
+    const ProgramResult result = run_burin(folder.path(), {"assemble", "-o", "b.exr", "a.exr"});
+    EXPECT_EQ(result.status, 0);
+    EXPECT_EQ(result.err, "burin: note: b.exr has rows 16 to 31; the picture has 0 to 47\n");
+}
+
+TEST(Assemble, WrongUseIsRefused) {
+    const TemporaryFolder folder;
+    folder.write("shot.toml", kShot);
+    ASSERT_EQ(run_burin(folder.path(), {"render", "shot.toml", "-r", "32x32", "-q", "-o", "a.exr"}).status, 0);
+    EXPECT_EQ(run_burin(folder.path(), {"assemble", "-o", "a.exr", "a.exr"}).status, 2) << "an input is kept";
+    EXPECT_EQ(run_burin(folder.path(), {"assemble", "-o", "b.png", "a.exr"}).status, 2);
+    EXPECT_EQ(run_burin(folder.path(), {"assemble", "-o", "b.exr"}).status, 2);
+    const ProgramResult twice = run_burin(folder.path(), {"assemble", "-o", "b.exr", "a.exr", "a.exr"});
+    EXPECT_EQ(twice.status, 1);
+    EXPECT_EQ(twice.err, "a.exr: begins at row 0, which a.exr has, too\n");
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.exr", "shot.toml"}));
+}
+
+TEST(DryRun, TellsFramesAndMemoryAndDrawsNothing) {
+    const TemporaryFolder folder;
+    folder.write("shot.toml", kShot);
+    const std::vector<std::string> render = {"render", "shot.toml", "-r",  "64x48", "-q",
+                                             "-o",     "o.##.exr",  "-f", "1-12",  "--skip-existing"};
+    ASSERT_EQ(run_burin(folder.path(), joined(render, {"-f", "3-4"})).status, 2) << "frames are given once";
+    ASSERT_EQ(run_burin(folder.path(), {"render", "shot.toml", "-r", "64x48", "-q", "-o", "o.##.exr", "-f", "2,5-6",
+                                        "--skip-existing"})
+                  .status,
+              0);
+    const ProgramResult text = run_burin(folder.path(), joined(render, {"--dry-run"}));
+    EXPECT_EQ(text.status, 0) << text.err;
+    EXPECT_NE(text.out.find("frames 12 (3 there)\nmissing 1,3,4,7-12\n"), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find("\nmemory "), std::string::npos) << text.out;
+    const ProgramResult json = run_burin(folder.path(), joined(render, {"--dry-run", "--json"}));
+    const auto told = nlohmann::json::parse(json.out);
+    EXPECT_EQ(told["frames"], 12);
+    EXPECT_EQ(told["there"], 3);
+    EXPECT_EQ(told["missing"], "1,3,4,7-12");
+    const auto& memory = told["memory_bytes"];
+    EXPECT_EQ(memory["total"], memory["program"].get<std::uint64_t>() + memory["model"].get<std::uint64_t>() +
+                                   memory["film"].get<std::uint64_t>() + memory["method"].get<std::uint64_t>());
+    EXPECT_EQ(folder.names().size(), 4u) << "nothing was drawn";
+}
+
+TEST(Submit, GivesChunksOfWhatIsMissing) {
+    const TemporaryFolder folder;
+    folder.write("shot.toml", kShot);
+    ASSERT_EQ(run_burin(folder.path(), {"render", "shot.toml", "-r", "64x48", "-q", "-o", "o.##.exr", "-f", "2,5-6"})
+                  .status,
+              0);
+    const ProgramResult result =
+        run_burin(folder.path(), {"submit", "shot.toml", "-r", "64x48", "-o", "o.##.exr", "-f", "1-12", "--chunk", "4",
+                                  "--retries", "2", "--dry-run", "--", "--partition=night shift"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    for (const char* part :
+         {"#SBATCH --array=0-2\n", "0) frames=1,3,4,7 ;;\n", "1) frames=8-11 ;;\n", "2) frames=12 ;;\n", " -lt 2 ]",
+          "# sbatch --parsable '--partition=night shift'\n", "--dependency=afterany:JOB", "--size=64x48"})
+        EXPECT_NE(result.out.find(part), std::string::npos) << part << "\n" << result.out;
+    EXPECT_EQ(count_of(result.out, "#!/bin/sh"), 2u);
+    // A shell reads them.
+    folder.write("scripts.sh", result.out);
+    EXPECT_EQ(std::system(("sh -n '" + folder.file("scripts.sh") + "'").c_str()), 0);
+}
+
+TEST(Submit, BandsAreTasksOfTheirOwn) {
+    const TemporaryFolder folder;
+    folder.write("shot.toml", kShot);
+    const ProgramResult result = run_burin(folder.path(), {"submit", "shot.toml", "-r", "64x70", "-o", "it's #.exr",
+                                                           "-f", "1-3", "--bands", "2", "--dry-run"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    for (const char* part : {"#SBATCH --array=0-1\n", "set -- --crop 0,0,64,32 ;;", "set -- --crop 0,32,64,70 ;;",
+                             "join 'it'\\''s 0002.exr' 'it'\\''s 0002.band1.exr' 'it'\\''s 0002.band2.exr'\n"})
+        EXPECT_NE(result.out.find(part), std::string::npos) << part << "\n" << result.out;
+    folder.write("scripts.sh", result.out);
+    EXPECT_EQ(std::system(("sh -n '" + folder.file("scripts.sh") + "'").c_str()), 0);
+    const auto error_of = [&](const std::vector<std::string>& more) {
+        return run_burin(folder.path(), joined({"submit", "shot.toml", "-r", "64x70", "--dry-run"}, more)).err;
+    };
+    EXPECT_EQ(error_of({"-o", "o.##.png", "-f", "1-3", "--bands", "2"}), "burin: --bands: EXR only\n");
+    EXPECT_EQ(error_of({"-o", "o.##.exr", "-f", "1-3", "--bands", "9"}),
+              "burin: --bands: a picture of 70 rows has 5 bands at most\n");
+    EXPECT_EQ(error_of({"-o", "o.##.exr", "-f", "1-3", "--bands", "2", "--crop", "0,0,9,9"}),
+              "burin: --bands: cannot stand beside --crop; remove one\n");
+}
+
+TEST(Submit, WithoutSlurmSaysSo) {
+    const TemporaryFolder folder;
+    folder.write("shot.toml", kShot);
+    ::setenv("PATH", "/nowhere", 1);
+    const ProgramResult result =
+        run_burin(folder.path(), {"submit", "shot.toml", "-r", "64x48", "-o", "o.##.exr", "-f", "1-3"});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_EQ(result.err, "sbatch not found; --dry-run prints the scripts\n");
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"shot.toml"});
+}
+
+}  // namespace
+}  // namespace burin::farm_test
