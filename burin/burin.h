@@ -133,6 +133,9 @@ BURIN_API int burin_move_object(burin_scene* scene, int object, const double to_
 BURIN_API int burin_remove_object(burin_scene* scene, int object);
 /** Removes all objects. Meshes and materials that were added, settings and cameras stay. */
 BURIN_API int burin_clear_objects(burin_scene* scene);
+/** The box of all objects: `low` and `high` get its corners in the world. Fails with BURIN_BAD_INPUT if there are no
+ * points. */
+BURIN_API int burin_scene_box(const burin_scene* scene, double low[3], double high[3]);
 /** Which object has a number `id` in the channel id.object of a picture of the scene as it is now: ids count the parts
  * of all objects, in the order in which these were added, from 1. */
 BURIN_API int burin_object_of_id(const burin_scene* scene, uint32_t id);
@@ -186,6 +189,9 @@ typedef struct burin_options {
     int32_t for_paths; /**< of burin_find_lines(), not 0: a drawing can be written as a vector file without a style
                             sheet, too: the look of the scene then counts as one, which draws the same lines, though
                             not to the bit */
+    int32_t find_all;  /**< of burin_find_lines(), not 0: lines are found as if a style sheet asked for all that there
+                            is, so that burin_draw() takes any sheet of the same crease_angle and contours; without a
+                            sheet for_paths is meant, too */
 } burin_options;
 
 /** Channels of pixels, independent of the scene. */

@@ -98,7 +98,7 @@ struct Options {
     std::string layers{};
     /// Gets the part that is done. Returns true to stop. What it throws stops, too, and comes out of the call.
     std::function<bool(double)> progress{};
-    bool for_paths = false;
+    bool for_paths = false, find_all = false;
 };
 
 /// The bytes of a file of a picture or a drawing.
@@ -484,7 +484,8 @@ class Scene {
                            .layers = options.layers.empty() ? nullptr : options.layers.c_str(),
                            .progress = options.progress ? &Teller::tell : nullptr,
                            .user = &teller,
-                           .for_paths = options.for_paths};
+                           .for_paths = options.for_paths,
+                           .find_all = options.find_all};
         auto* const result = work(get(), &v, &o);
         if (result == nullptr && teller.thrown) std::rethrow_exception(teller.thrown);
         return checked(result);

@@ -257,6 +257,30 @@ int burin_clear_objects(burin_scene* scene) {
     });
 }
 
+int burin_scene_box(const burin_scene* scene, double low[3], double high[3]) {
+    return guarded([&] {
+        glm::dvec3 least(std::numeric_limits<double>::infinity()), most(-least);
+        for (const auto& [number, object] : required(scene, "scene").objects) {
+            for (const ObjectPart& part : object.parts) {
+                const Mesh& mesh = part.group->meshes[part.mesh];
+                for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+                    const glm::dvec3 place(part.to_world * glm::dvec4(mesh.position(v), 1));
+                    least = glm::min(least, place);
+                    most = glm::max(most, place);
+                }
+            }
+        }
+        if (!(least.x <= most.x)) throw InputError("the scene has no points");
+        required(low, "low");
+        required(high, "high");
+        for (int i = 0; i < 3; ++i) {
+            low[i] = least[i];
+            high[i] = most[i];
+        }
+        return int{BURIN_DONE};
+    });
+}
+
 int burin_object_of_id(const burin_scene* scene, uint32_t id) {
     return guarded([&] {
         std::uint64_t last = 0;

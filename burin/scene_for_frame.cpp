@@ -27,6 +27,10 @@ SceneForFrame::SceneForFrame(burin_scene& state, const burin_view& view, const O
         scene_.sheet = std::make_shared<const StyleSheet>(plain_sheet(scene_.lines));
         scene_.names_lines = true;
     }
+    if (options.finds_all) {
+        scene_.finds_all = true;
+        scene_.lines.classes = LineClassSet::all();
+    }
     scene_.surfaces = settings.surfaces;
     scene_.lights = settings.lights;
     scene_.abuffer = settings.abuffer;

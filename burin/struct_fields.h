@@ -95,10 +95,11 @@ static_assert(names_all_fields<burin_view>());
 
 template <>
 struct Fields<burin_options> {
-    static constexpr std::array places = {BURIN_FIELD(burin_options, size),         BURIN_FIELD(burin_options, threads),
-                                          BURIN_FIELD(burin_options, memory_bytes), BURIN_FIELD(burin_options, layers),
-                                          BURIN_FIELD(burin_options, progress),     BURIN_FIELD(burin_options, user),
-                                          BURIN_FIELD(burin_options, for_paths)};
+    static constexpr std::array places = {
+        BURIN_FIELD(burin_options, size),         BURIN_FIELD(burin_options, threads),
+        BURIN_FIELD(burin_options, memory_bytes), BURIN_FIELD(burin_options, layers),
+        BURIN_FIELD(burin_options, progress),     BURIN_FIELD(burin_options, user),
+        BURIN_FIELD(burin_options, for_paths),    BURIN_FIELD(burin_options, find_all)};
 };
 static_assert(names_all_fields<burin_options>());
 

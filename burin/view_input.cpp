@@ -134,7 +134,8 @@ OptionsInput checked_options(const burin_options& options) {
     }
     input.progress = options.progress;
     input.user = options.user;
-    input.for_paths = options.for_paths != 0;
+    input.finds_all = options.find_all != 0;
+    input.for_paths = options.for_paths != 0 || input.finds_all;
     return input;
 }
 

@@ -34,7 +34,7 @@ struct OptionsInput {
     std::optional<LayerSet> layers;
     int (*progress)(double, void*) = nullptr;
     void* user = nullptr;
-    bool for_paths = false;
+    bool for_paths = false, finds_all = false;
 };
 
 /// Runs what looks at layers. What it throws names the option.

@@ -7,8 +7,11 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <limits>
+#include <atomic>
+#include <chrono>
+#include <mutex>
 #include <optional>
+#include <thread>
 
 namespace py = pybind11;
 
@@ -23,28 +26,9 @@ std::span<const T> span_of(const std::optional<py::array_t<T, py::array::c_style
     return {array->data(), static_cast<std::size_t>(array->size())};
 }
 
-/// Arrays of one mesh; burin._mesh has brought them to these types and shapes.
-int add_mesh(burin::Scene& scene, const std::string& name, const Floats& points, const Integers& corners,
-             const std::optional<Integers>& polygon_sizes, const std::optional<Integers>& polygon_materials,
-             const std::optional<Integers>& polygon_objects, std::vector<std::string> object_names,
-             const std::optional<Integers>& marked_edges, const std::optional<Floats>& corner_uv,
-             const std::optional<Floats>& point_colors, const std::map<std::string, Floats>& attributes) {
-    burin::Mesh mesh;
-    mesh.name = name;
-    mesh.points = {points.data(), static_cast<std::size_t>(points.size())};
-    mesh.corners = {corners.data(), static_cast<std::size_t>(corners.size())};
-    mesh.polygon_sizes = span_of(polygon_sizes);
-    mesh.polygon_materials = span_of(polygon_materials);
-    mesh.polygon_objects = span_of(polygon_objects);
-    mesh.object_names = std::move(object_names);
-    mesh.marked_edges = span_of(marked_edges);
-    mesh.corner_uv = span_of(corner_uv);
-    mesh.point_colors = span_of(point_colors);
-    for (const auto& [attribute, values] : attributes)
-        mesh.attributes.emplace_back(attribute, std::span(values.data(), static_cast<std::size_t>(values.size())));
-    const py::gil_scoped_release others_run;
-    return scene.add_mesh(mesh);
-}
+/// Whether the interpreter is about to end: threads that draw must come back before it does.
+std::atomic<bool> is_ending = false;
+std::atomic<int> calls_at_work = 0;
 
 /// A call that draws: other threads of Python run meanwhile, Ctrl-C stops it, and so does `progress` by returning True.
 struct Work {
@@ -53,7 +37,7 @@ struct Work {
 
     Work(std::array<int, 2> size, std::array<std::int32_t, 4> crop, int samples, const std::string& camera,
          const burin::Matrix& camera_to_world, double fov_deg, double ortho_height, int frame, int threads,
-         std::uint64_t memory_bytes, const std::string& layers, bool for_paths, py::object progress) {
+         std::uint64_t memory_bytes, const std::string& layers, bool for_paths, bool find_all, py::object progress) {
         view.width = size[0];
         view.height = size[1];
         view.crop = crop;
@@ -67,7 +51,9 @@ struct Work {
         options.memory_bytes = memory_bytes;
         options.layers = layers;
         options.for_paths = for_paths;
+        options.find_all = find_all;
         options.progress = [progress = std::move(progress)](double done) {
+            if (is_ending) return true;
             const py::gil_scoped_acquire python;
             if (PyErr_CheckSignals() != 0) throw py::error_already_set();
             return !progress.is_none() && py::cast<bool>(py::bool_(progress(done)));
@@ -111,11 +97,39 @@ void copy_returned(const py::handle& from, std::span<float> to) {
     for (std::size_t i = 0; i < to.size(); ++i) to[i] = values.data()[values.size() == 1 ? 0 : i];
 }
 
+/// What functions of Python threw that the library called: it comes out of the call that drew.
+class Thrown {
+  public:
+    void keep() {
+        const std::lock_guard lock(mutex_);
+        if (!first_) first_ = std::current_exception();
+    }
+    /// Runs what draws.
+    template <typename Work>
+    auto rethrowing(const Work& work) {
+        take();
+        try {
+            return work();
+        } catch (const burin::Error&) {
+            if (const std::exception_ptr thrown = take()) std::rethrow_exception(thrown);
+            throw;
+        }
+    }
+
+  private:
+    std::exception_ptr take() {
+        const std::lock_guard lock(mutex_);
+        return std::exchange(first_, nullptr);
+    }
+    std::mutex mutex_;
+    std::exception_ptr first_;
+};
+
 /// A function of Python that line shaders and line tests call.
 class PythonFunction {
   public:
-    PythonFunction(std::vector<std::string> variables, py::function function)
-        : variables_(std::move(variables)), function_(std::move(function)) {}
+    PythonFunction(std::vector<std::string> variables, py::function function, std::shared_ptr<Thrown> thrown)
+        : variables_(std::move(variables)), function_(std::move(function)), thrown_(std::move(thrown)) {}
     PythonFunction(const PythonFunction&) = delete;
     PythonFunction& operator=(const PythonFunction&) = delete;
     ~PythonFunction() {
@@ -127,20 +141,27 @@ class PythonFunction {
         for (const std::string& name : variables_) text += (text.empty() ? "" : ", ") + name;
         return text;
     }
-    template <typename... More>
-    py::object operator()(const burin::LineSamples& in, const More&... more) const {
-        return function_(columns_of(in, variables_), more...);
+    /// Calls it, and `use` with what it returns.
+    template <typename Use, typename... More>
+    void call(const burin::LineSamples& in, const Use& use, const More&... more) const {
+        try {
+            use(function_(columns_of(in, variables_), more...));
+        } catch (const py::error_already_set&) {
+            thrown_->keep();
+            throw burin::Error(BURIN_BAD_ARGUMENT, "a function of Python has thrown");
+        }
     }
 
   private:
     std::vector<std::string> variables_;
     py::function function_;
+    std::shared_ptr<Thrown> thrown_;
 };
 
 class PythonLineShader final : public burin::LineShader {
   public:
-    PythonLineShader(std::vector<std::string> variables, py::function function)
-        : function_(std::move(variables), std::move(function)) {}
+    PythonLineShader(std::vector<std::string> variables, py::function function, std::shared_ptr<Thrown> thrown)
+        : function_(std::move(variables), std::move(function), std::move(thrown)) {}
     std::string needs() const override { return function_.needs(); }
     void shade(const burin::LineSamples& in, burin::LineInk& out) const override {
         const py::gil_scoped_acquire python;
@@ -150,11 +171,18 @@ class PythonLineShader final : public burin::LineShader {
         py::dict ink;
         for (const auto& [name, values] : inks)
             ink[name] = Floats(static_cast<py::ssize_t>(values.size()), values.data());
-        const py::object result = function_(in, ink);
-        const py::dict changed = result.is_none() ? ink : py::cast<py::dict>(result);
-        for (const auto& [name, values] : inks) {
-            if (changed.contains(name)) copy_returned(changed[name], values);
-        }
+        const auto take = [&](const py::object& result) {
+            const py::dict changed = result.is_none() ? ink : py::cast<py::dict>(result);
+            std::size_t known = 0;
+            for (const auto& value : inks) {
+                if (!changed.contains(value.first)) continue;
+                copy_returned(changed[value.first], value.second);
+                ++known;
+            }
+            if (known != changed.size())
+                throw std::runtime_error("returned more than width, offset, opacity, red, green and blue");
+        };
+        function_.call(in, take, ink);
     }
 
   private:
@@ -163,17 +191,94 @@ class PythonLineShader final : public burin::LineShader {
 
 class PythonLineTest final : public burin::LineTest {
   public:
-    PythonLineTest(std::vector<std::string> variables, py::function function)
-        : function_(std::move(variables), std::move(function)) {}
+    PythonLineTest(std::vector<std::string> variables, py::function function, std::shared_ptr<Thrown> thrown)
+        : function_(std::move(variables), std::move(function), std::move(thrown)) {}
     std::string needs() const override { return function_.needs(); }
     void test(const burin::LineSamples& in, std::span<float> strength) const override {
         const py::gil_scoped_acquire python;
-        copy_returned(function_(in), strength);
+        function_.call(in, [&](const py::object& result) { copy_returned(result, strength); });
     }
 
   private:
     PythonFunction function_;
 };
+
+/// A scene that one call at a time uses.
+class PythonScene : public burin::Scene {
+  public:
+    std::shared_ptr<Thrown> thrown() const { return thrown_; }
+
+    /// Runs a call, if no other one is at work.
+    template <typename Work>
+    auto in_turn(const Work& work) {
+        if (is_busy_.exchange(true))
+            throw burin::Error(BURIN_BAD_ARGUMENT,
+                               "the scene is at work; one call at a time may use it, but for cancel()");
+        const Turn turn{is_busy_};
+        if (is_ending) throw burin::Error(BURIN_STOPPED, "stopped: the interpreter ends");
+        return thrown_->rethrowing(work);
+    }
+
+  private:
+    struct Turn {
+        std::atomic<bool>& flag;
+        explicit Turn(std::atomic<bool>& busy) : flag(busy) { ++calls_at_work; }
+        Turn(const Turn&) = delete;
+        Turn& operator=(const Turn&) = delete;
+        ~Turn() {
+            flag = false;
+            --calls_at_work;
+        }
+    };
+    std::atomic<bool> is_busy_ = false;
+    std::shared_ptr<Thrown> thrown_ = std::make_shared<Thrown>();
+};
+
+/// A member function of the scene, in turn.
+template <typename Result, typename... Parts>
+auto in_turn(Result (burin::Scene::*function)(Parts...)) {
+    return [function](PythonScene& self, Parts... parts) -> Result {
+        return self.in_turn([&] { return (self.*function)(std::forward<Parts>(parts)...); });
+    };
+}
+template <typename Result, typename... Parts>
+auto in_turn(Result (burin::Scene::*function)(Parts...) const) {
+    return [function](PythonScene& self, Parts... parts) -> Result {
+        return self.in_turn([&] { return (self.*function)(std::forward<Parts>(parts)...); });
+    };
+}
+
+/// Stops all that draws, and waits for it, before the interpreter ends.
+void end() {
+    is_ending = true;
+    const py::gil_scoped_release others_run;
+    constexpr int kMostWaits = 500;
+    for (int i = 0; i < kMostWaits && calls_at_work > 0; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+}
+
+/// Arrays of one mesh; burin._mesh has brought them to these types and shapes.
+int add_mesh(PythonScene& scene, const std::string& name, const Floats& points, const Integers& corners,
+             const std::optional<Integers>& polygon_sizes, const std::optional<Integers>& polygon_materials,
+             const std::optional<Integers>& polygon_objects, std::vector<std::string> object_names,
+             const std::optional<Integers>& marked_edges, const std::optional<Floats>& corner_uv,
+             const std::optional<Floats>& point_colors, const std::map<std::string, Floats>& attributes) {
+    burin::Mesh mesh;
+    mesh.name = name;
+    mesh.points = {points.data(), static_cast<std::size_t>(points.size())};
+    mesh.corners = {corners.data(), static_cast<std::size_t>(corners.size())};
+    mesh.polygon_sizes = span_of(polygon_sizes);
+    mesh.polygon_materials = span_of(polygon_materials);
+    mesh.polygon_objects = span_of(polygon_objects);
+    mesh.object_names = std::move(object_names);
+    mesh.marked_edges = span_of(marked_edges);
+    mesh.corner_uv = span_of(corner_uv);
+    mesh.point_colors = span_of(point_colors);
+    for (const auto& [attribute, values] : attributes)
+        mesh.attributes.emplace_back(attribute, std::span(values.data(), static_cast<std::size_t>(values.size())));
+    const py::gil_scoped_release others_run;
+    return scene.in_turn([&] { return scene.add_mesh(mesh); });
+}
 
 /// An array over values that `owner` keeps; it cannot be written.
 py::array view_of(const void* values, const char* type, std::vector<py::ssize_t> shape, const py::object& owner) {
@@ -266,14 +371,15 @@ PYBIND11_MODULE(_core, module) {
     module.def("version", [] { return std::string(burin_version()); });
     module.def("abi", &burin_abi);
     translate_errors(module);
+    py::module_::import("atexit").attr("register")(py::cpp_function(&end));
     using Unlocked = py::call_guard<py::gil_scoped_release>;
 
     py::class_<Work>(module, "Work")
         .def(py::init<std::array<int, 2>, std::array<std::int32_t, 4>, int, const std::string&, const burin::Matrix&,
-                      double, double, int, int, std::uint64_t, const std::string&, bool, py::object>(),
+                      double, double, int, int, std::uint64_t, const std::string&, bool, bool, py::object>(),
              py::arg("size"), py::arg("crop"), py::arg("samples"), py::arg("camera"), py::arg("camera_to_world"),
              py::arg("fov_deg"), py::arg("ortho_height"), py::arg("frame"), py::arg("threads"), py::arg("memory_bytes"),
-             py::arg("layers"), py::arg("for_paths"), py::arg("progress"));
+             py::arg("layers"), py::arg("for_paths"), py::arg("find_all"), py::arg("progress"));
 
     py::class_<burin::Picture>(module, "Picture")
         .def("channel_names", &burin::Picture::channel_names)
@@ -324,55 +430,71 @@ PYBIND11_MODULE(_core, module) {
             },
             py::arg("path"), py::arg("style"));
 
-    py::class_<burin::Scene>(module, "Scene")
+    py::class_<PythonScene>(module, "Scene")
         .def(py::init<>())
-        .def("add_file", &burin::Scene::add_file, Unlocked(), py::arg("path"))
-        .def("add_text", &burin::Scene::add_text, Unlocked(), py::arg("toml"), py::arg("base_folder"))
-        .def("notes", &burin::Scene::notes)
+        .def("add_file", in_turn(&burin::Scene::add_file), Unlocked(), py::arg("path"))
+        .def("add_text", in_turn(&burin::Scene::add_text), Unlocked(), py::arg("toml"), py::arg("base_folder"))
+        .def("notes", in_turn(&burin::Scene::notes))
         .def(
             "add_material",
-            [](burin::Scene& self, const std::string& name, const std::array<float, 3>& color, float opacity) {
-                return self.add(burin::Material{name, color, opacity});
+            [](PythonScene& self, const std::string& name, const std::array<float, 3>& color, float opacity) {
+                return self.in_turn([&] { return self.add(burin::Material{name, color, opacity}); });
             },
             py::arg("name"), py::arg("color"), py::arg("opacity"))
         .def("add_mesh", &add_mesh, py::arg("name"), py::arg("points"), py::arg("corners"), py::arg("polygon_sizes"),
              py::arg("polygon_materials"), py::arg("polygon_objects"), py::arg("object_names"), py::arg("marked_edges"),
              py::arg("corner_uv"), py::arg("point_colors"), py::arg("attributes"))
-        .def("remove_mesh", &burin::Scene::remove_mesh, py::arg("mesh"))
-        .def("add_object", &burin::Scene::add_object, py::arg("mesh"), py::arg("name"), py::arg("to_world"),
+        .def("remove_mesh", in_turn(&burin::Scene::remove_mesh), py::arg("mesh"))
+        .def("add_object", in_turn(&burin::Scene::add_object), py::arg("mesh"), py::arg("name"), py::arg("to_world"),
              py::arg("material"))
-        .def("move", &burin::Scene::move, py::arg("object"), py::arg("to_world"))
-        .def("remove", &burin::Scene::remove, py::arg("object"))
-        .def("clear", &burin::Scene::clear)
-        .def("object_of_id", &burin::Scene::object_of_id, py::arg("id"))
-        .def("object_name", &burin::Scene::object_name, py::arg("object"))
-        .def("set", &burin::Scene::set, py::arg("key_and_value"))
-        .def("set_toml", &burin::Scene::set_toml, py::arg("toml"))
-        .def("set_style", &burin::Scene::set_style, py::arg("text_or_name"))
+        .def("move", in_turn(&burin::Scene::move), py::arg("object"), py::arg("to_world"))
+        .def("remove", in_turn(&burin::Scene::remove), py::arg("object"))
+        .def("clear", in_turn(&burin::Scene::clear))
+        .def("object_of_id", in_turn(&burin::Scene::object_of_id), py::arg("id"))
+        .def("object_name", in_turn(&burin::Scene::object_name), py::arg("object"))
+        .def("set", in_turn(&burin::Scene::set), py::arg("key_and_value"))
+        .def("set_toml", in_turn(&burin::Scene::set_toml), py::arg("toml"))
+        .def("set_style", in_turn(&burin::Scene::set_style), py::arg("text_or_name"))
         .def(
             "add_line_shader",
-            [](burin::Scene& self, const std::string& name, std::vector<std::string> variables, py::function function) {
-                self.add_line_shader(name,
-                                     std::make_shared<PythonLineShader>(std::move(variables), std::move(function)));
+            [](PythonScene& self, const std::string& name, std::vector<std::string> variables, py::function function) {
+                auto called =
+                    std::make_shared<PythonLineShader>(std::move(variables), std::move(function), self.thrown());
+                self.in_turn([&] { self.add_line_shader(name, std::move(called)); });
             },
             py::arg("name"), py::arg("variables"), py::arg("function"))
         .def(
             "add_line_test",
-            [](burin::Scene& self, const std::string& name, std::vector<std::string> variables, py::function function) {
-                self.add_line_test(name, std::make_shared<PythonLineTest>(std::move(variables), std::move(function)));
+            [](PythonScene& self, const std::string& name, std::vector<std::string> variables, py::function function) {
+                auto called =
+                    std::make_shared<PythonLineTest>(std::move(variables), std::move(function), self.thrown());
+                self.in_turn([&] { self.add_line_test(name, std::move(called)); });
             },
             py::arg("name"), py::arg("variables"), py::arg("function"))
         .def(
-            "render", [](burin::Scene& self, const Work& work) { return self.render(work.view, work.options); },
+            "render",
+            [](PythonScene& self, const Work& work) {
+                return self.in_turn([&] { return self.render(work.view, work.options); });
+            },
             Unlocked(), py::arg("work"))
         .def(
-            "find_lines", [](burin::Scene& self, const Work& work) { return self.find_lines(work.view, work.options); },
+            "find_lines",
+            [](PythonScene& self, const Work& work) {
+                return self.in_turn([&] { return self.find_lines(work.view, work.options); });
+            },
             Unlocked(), py::arg("work"))
         .def(
             "explain",
-            [](burin::Scene& self, int x, int y, const std::string& format, const Work& work) {
-                return self.explain(x, y, work.view, format, work.options);
+            [](PythonScene& self, int x, int y, const std::string& format, const Work& work) {
+                return self.in_turn([&] { return self.explain(x, y, work.view, format, work.options); });
             },
             Unlocked(), py::arg("x"), py::arg("y"), py::arg("format"), py::arg("work"))
-        .def("cancel", &burin::Scene::cancel, Unlocked());
+        .def("box",
+             [](PythonScene& self) {
+                 std::array<double, 3> low{}, high{};
+                 self.in_turn([&] { return burin::checked(burin_scene_box(self.get(), low.data(), high.data())); });
+                 return std::pair(low, high);
+             })
+        .def(
+            "cancel", [](PythonScene& self) { self.cancel(); }, Unlocked());
 }

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional
+import os
+from typing import Any, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -59,6 +60,16 @@ def matrix(name: str, values: Any) -> list[float]:
     array = np.asarray(values)
     if array.dtype.kind not in "fiu" or array.shape not in ((4, 4), (3, 4)):
         raise UsageError(f"{name}: must be a matrix of real numbers of the shape (4, 4) or (3, 4)")
+    if not np.any(array):
+        raise UsageError(f"{name}: is all 0")
     full = np.eye(4)
     full[: array.shape[0]] = array
     return [float(x) for x in full.ravel()]
+
+
+def path(value: Union[str, "os.PathLike[str]"]) -> str:
+    """The name of a file."""
+    name = os.fspath(value)
+    if "\0" in name:
+        raise UsageError("the name of a file has a NUL character")
+    return name

@@ -9,7 +9,7 @@ from typing import Any, Callable, Optional, Union
 import numpy as np
 import numpy.typing as npt
 
-from . import _core
+from . import _arrays, _core
 
 PathLike = Union[str, "os.PathLike[str]"]
 Array = npt.NDArray[Any]
@@ -46,7 +46,9 @@ class Picture:
             raise KeyError(f"no layer '{name}'; there are {', '.join(self.layers)}")
         if all(part[-2:-1] in ("", ".") and part[-1] in _ORDER for part in parts):
             parts.sort(key=lambda part: _ORDER.index(part[-1]))
-        return np.stack([self._core.channel(part) for part in parts], axis=-1)
+        layer: Array = np.stack([self._core.channel(part) for part in parts], axis=-1)
+        layer.setflags(write=False)
+        return layer
 
     def __contains__(self, name: object) -> bool:
         return name in self.channels or name in self.layers
@@ -86,7 +88,7 @@ class Picture:
 
     def save(self, path: PathLike) -> None:
         """Into a file, whose suffix says the format."""
-        self._core.write(os.fspath(path))
+        self._core.write(_arrays.path(path))
 
     def _repr_png_(self) -> bytes:
         return self.png()
@@ -146,7 +148,7 @@ class Drawing:
 
     def save(self, path: PathLike, style: Optional[str] = None) -> None:
         """Into a file, whose suffix says the format."""
-        path = os.fspath(path)
+        path = _arrays.path(path)
         self._written(os.path.splitext(path)[1].lstrip(".").lower(), style).write(path, style)
 
     def _written(self, format: str, style: Optional[str]) -> _core.Drawing:

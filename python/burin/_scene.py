@@ -29,8 +29,6 @@ class Scene:
         self._core = _core.Scene()
         self._version = 0  # counts changes
         self._has_sheet = False
-        self._low = np.full(3, np.inf)  # of the meshes that were added
-        self._high = np.full(3, -np.inf)
         for mesh in meshes:
             self.add(mesh)
 
@@ -69,7 +67,6 @@ class Scene:
         finally:
             self._core.remove_mesh(number)  # the object goes on showing it
         self._version += 1
-        self._include(points, to_world)
         return result
 
     def _add_mesh(self, arrays: MeshArrays, points: Any, name: str, marked_edges: Any) -> int:
@@ -103,47 +100,36 @@ class Scene:
             {name: _arrays.floats(name, values, 1, count) for name, values in arrays.attributes.items()},
         )
 
-    def _include(self, points: Any, to_world: list[float]) -> None:
-        """Keeps what the meshes span, for cameras that look at their middle."""
-        if len(points) == 0:
-            return
-        matrix = np.eye(4) if not any(to_world) else np.reshape(to_world, (4, 4))
-        corners = np.array([np.min(points, axis=0), np.max(points, axis=0)], np.float64)
-        box = np.stack(np.meshgrid(*corners.T, indexing="ij"), axis=-1).reshape(-1, 3)
-        placed = box @ matrix[:3, :3].T + matrix[:3, 3]
-        self._low = np.minimum(self._low, placed.min(axis=0))
-        self._high = np.maximum(self._high, placed.max(axis=0))
-
     def add_file(self, path: PathLike) -> int:
         """Adds what a scene file or a model holds. Returns the number of its first object."""
+        first = self._core.add_file(_arrays.path(path))
         self._version += 1
-        return self._core.add_file(os.fspath(path))
+        return first
 
     def add_text(self, toml: str, base_folder: PathLike = "") -> int:
         """The same of the text of a scene file; paths in it are relative to `base_folder`."""
+        first = self._core.add_text(toml, os.fspath(base_folder))
         self._version += 1
-        return self._core.add_text(toml, os.fspath(base_folder))
+        return first
 
     def add_material(self, name: str = "", color: Vector = (0.8, 0.8, 0.8), opacity: float = 1.0) -> int:
         """Adds a material, of a linear colour. Returns its number."""
         red, green, blue = (float(c) for c in color)
-        self._version += 1
         return self._core.add_material(name, [red, green, blue], opacity)
 
     def move(self, object: int, matrix: Optional[npt.ArrayLike]) -> None:
         """Puts an object somewhere else."""
-        self._version += 1
         self._core.move(object, _arrays.matrix("matrix", matrix))
+        self._version += 1
 
     def remove(self, object: int) -> None:
-        self._version += 1
         self._core.remove(object)
+        self._version += 1
 
     def clear(self) -> None:
         """Removes all objects."""
-        self._version += 1
         self._core.clear()
-        self._low, self._high = np.full(3, np.inf), np.full(3, -np.inf)
+        self._version += 1
 
     def object_of_id(self, id: int) -> int:
         """The object that has a number in the layer "id.object"."""
@@ -161,25 +147,26 @@ class Scene:
 
     def set(self, *settings: str, **values: Any) -> None:
         """Changes settings: set("lines.width=2"), or set(lines={"width": 2, "draw": ["crease"]})."""
-        self._version += 1
         for setting in settings:
             self._core.set(setting)
+            self._version += 1
         for table, keys in values.items():
             if not isinstance(keys, Mapping):
                 raise UsageError(f"{table}: must be a dict of settings, as in set({table}={{'key': value}})")
             for key, value in keys.items():
                 self._core.set(f"{table}.{key}={_text(value)}")
+                self._version += 1
 
     def set_toml(self, toml: str) -> None:
         """Changes all settings that a text names, as a scene file does."""
-        self._version += 1
         self._core.set_toml(toml)
+        self._version += 1
 
     def set_style(self, style: Optional[str]) -> None:
         """Has lines look as a style sheet says: its name, file or text. None: takes it away."""
-        self._version += 1
         self._core.set_style(style or "")
         self._has_sheet = bool(style)
+        self._version += 1
 
     def add_line_shader(self, name: str, variables: Iterable[str], function: Callable[..., Any]) -> None:
         """Lets a function change the ink of lines: style sheets have it by shader = "NAME".
@@ -188,13 +175,13 @@ class Scene:
         "blue" of the style. It returns a dict of those that it changes (arrays, or numbers), or None if it changed
         them in place. The same place must get the same ink in whatever array it comes.
         """
-        self._version += 1
         self._core.add_line_shader(name, list(variables), function)
+        self._version += 1
 
     def add_line_test(self, name: str, variables: Iterable[str], function: Callable[..., Any]) -> None:
         """Lets function(columns) say how much of lines there is, 0 to 1: line sets have it by test = "NAME"."""
-        self._version += 1
         self._core.add_line_test(name, list(variables), function)
+        self._version += 1
 
     # ---- pictures and lines ----
 
@@ -206,14 +193,23 @@ class Scene:
         ("beauty,lines,Z"), threads, memory (bytes), progress (a function of the part that is done; it returns True to
         stop).
         """
-        version = self._version
-        return Picture(self._core.render(self._work(size, **view)), lambda: self._lines_of(version, size, view))
+        finder = self._finder(size, view)
+        return Picture(self._core.render(self._work(size, **view)), finder)
 
-    def find_lines(self, size: Optional[Sequence[int]] = None, *, style: Optional[str] = None, **view: Any) -> Drawing:
-        """Finds the lines that render() would draw. style: a sheet for the scene, as by set_style()."""
+    def find_lines(
+        self, size: Optional[Sequence[int]] = None, *, style: Optional[str] = None, find: str = "view", **view: Any
+    ) -> Drawing:
+        """Finds the lines that render() would draw.
+
+        style: a sheet for the scene, as by set_style(). find: "view", those that the scene's look asks for; or "all",
+        all that there are, so that any style sheet with the same crease_angle and contours can draw them. Vector files
+        of a scene without a style sheet are made of lines that are found anew: write them before the scene changes.
+        """
+        if find not in ("view", "all"):
+            raise UsageError("find: must be 'view' or 'all'")
         if style is not None:
             self.set_style(style)
-        return self._lines_of(self._version, size, view)
+        return self._finder(size, view, find == "all")()
 
     def explain(self, x: int, y: int, size: Optional[Sequence[int]] = None, *, json: bool = False, **view: Any) -> str:
         """Says why a pixel of a scene with a style sheet looks as it does."""
@@ -223,15 +219,20 @@ class Scene:
         """Stops what the scene is doing, which then raises burin.Cancelled. From any thread."""
         self._core.cancel()
 
-    def _lines_of(self, version: int, size: Optional[Sequence[int]], view: Mapping[str, Any]) -> Drawing:
-        """The lines of a view, as long as the scene is what it was."""
+    def _finder(
+        self, size: Optional[Sequence[int]], view: Mapping[str, Any], find_all: bool = False
+    ) -> Callable[[], Drawing]:
+        """What finds the lines of a view as it is now, as long as the scene is what it was."""
+        version = self._version
+        works = {paths: self._work(size, for_paths=paths, find_all=find_all, **view) for paths in (False, True)}
 
         def find(for_paths: bool) -> _core.Drawing:
             if version != self._version:
                 raise UsageError("the scene has changed since then; find its lines before, by find_lines()")
-            return self._core.find_lines(self._work(size, for_paths=for_paths, **view))
+            return self._core.find_lines(works[for_paths])
 
-        return Drawing(find(False), self, None if self._has_sheet else lambda: find(True))
+        has_paths = self._has_sheet or find_all
+        return lambda: Drawing(find(False), self, None if has_paths else lambda: find(True))
 
     def _work(
         self,
@@ -252,6 +253,7 @@ class Scene:
         memory: int = 0,
         progress: Optional[Progress] = None,
         for_paths: bool = False,
+        find_all: bool = False,
     ) -> _core.Work:
         if bool(camera) + (matrix is not None) + (eye is not None) > 1:
             raise UsageError("camera, matrix and eye: give one of them")
@@ -273,17 +275,17 @@ class Scene:
             frame,
             threads,
             memory,
-            layers if isinstance(layers, str) else ",".join(layers),
+            layers if isinstance(layers, str) else ",".join("ids" if layer == "id" else layer for layer in layers),
             for_paths,
+            find_all,
             progress,
         )
 
     def _target(self, target: Optional[Vector]) -> npt.NDArray[np.float64]:
         if target is not None:
             return _vector("target", target)
-        if not np.all(np.isfinite(self._low)):
-            raise UsageError("target: is needed beside eye, for no mesh was added")
-        middle: npt.NDArray[np.float64] = (self._low + self._high) / 2
+        low, high = self._core.box()
+        middle: npt.NDArray[np.float64] = (np.array(low) + np.array(high)) / 2
         return middle
 
 
@@ -299,7 +301,7 @@ def draw(
     background: Optional[str] = None,
     **view: Any,
 ) -> Picture:
-    """Draws a mesh, a file or a Scene.
+    """Draws a mesh, a file or a Scene, whose settings it changes.
 
     lines: classes of lines; width: of strokes, in pixels; crease_angle: in degrees; hidden: "none", "solid" or
     "dashed"; style: a style sheet instead of these; background: "#rrggbb" or "transparent". All else as for

@@ -88,7 +88,7 @@ TEST(Assemble, WrongUseIsRefused) {
 TEST(DryRun, TellsFramesAndMemoryAndDrawsNothing) {
     const TemporaryFolder folder;
     folder.write("shot.toml", kShot);
-    const std::vector<std::string> render = {"render", "shot.toml", "-r",  "64x48", "-q",
+    const std::vector<std::string> render = {"render", "shot.toml", "-r", "64x48", "-q",
                                              "-o",     "o.##.exr",  "-f", "1-12",  "--skip-existing"};
     ASSERT_EQ(run_burin(folder.path(), joined(render, {"-f", "3-4"})).status, 2) << "frames are given once";
     ASSERT_EQ(run_burin(folder.path(), {"render", "shot.toml", "-r", "64x48", "-q", "-o", "o.##.exr", "-f", "2,5-6",
@@ -113,9 +113,9 @@ TEST(DryRun, TellsFramesAndMemoryAndDrawsNothing) {
 TEST(Submit, GivesChunksOfWhatIsMissing) {
     const TemporaryFolder folder;
     folder.write("shot.toml", kShot);
-    ASSERT_EQ(run_burin(folder.path(), {"render", "shot.toml", "-r", "64x48", "-q", "-o", "o.##.exr", "-f", "2,5-6"})
-                  .status,
-              0);
+    ASSERT_EQ(
+        run_burin(folder.path(), {"render", "shot.toml", "-r", "64x48", "-q", "-o", "o.##.exr", "-f", "2,5-6"}).status,
+        0);
     const ProgramResult result =
         run_burin(folder.path(), {"submit", "shot.toml", "-r", "64x48", "-o", "o.##.exr", "-f", "1-12", "--chunk", "4",
                                   "--retries", "2", "--dry-run", "--", "--partition=night shift"});
