@@ -83,6 +83,9 @@ FarmJob farm_job(RenderJob& job, const Arguments& a, const std::vector<double>& 
     farm.folder = std::filesystem::current_path().string();
     const std::filesystem::path folder = std::filesystem::absolute(picture.path).parent_path();
     farm.log_folder = (folder / "burin-logs").string();
+    if (farm.log_folder.find_first_of("\"\\\n") != std::string::npos)
+        throw InputError(farm.log_folder +
+                         ": sbatch takes no folder with quotes, backslashes or line feeds in its name");
     farm.arguments = a.render_arguments;
     farm.output = picture.path;
     farm.frames = text_of_frames(job.plan().frames);

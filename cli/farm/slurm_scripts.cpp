@@ -16,7 +16,7 @@ constexpr std::string_view kRenderScript = R"sh(#!/bin/sh
 #SBATCH --array=0-@last_task@
 #SBATCH --requeue
 #SBATCH --open-mode=append
-#SBATCH --output=@logs@/%A_%a.txt
+#SBATCH --output="@logs@/%A_%a.txt"
 #SBATCH --signal=B:TERM@@30
 #SBATCH --cpus-per-task=@threads@
 #SBATCH --mem=@megabytes@M
@@ -48,7 +48,7 @@ exit $status
 constexpr std::string_view kCollectScript = R"sh(#!/bin/sh
 # Made by burin submit: runs when no task of the job is left.
 #SBATCH --job-name=@job@-collect
-#SBATCH --output=@logs@/collect_%j.txt
+#SBATCH --output="@logs@/collect_%j.txt"
 cd @folder@ || exit 1
 @joins@@removal@found=$(@program@ render@arguments@ -f @frames@ -o @output@ -q --skip-existing --dry-run) || exit 1
 missing=$(printf '%s\n' "$found" | sed -n 's/^missing //p')
@@ -87,6 +87,13 @@ std::string filled(std::string_view text, std::initializer_list<std::pair<std::s
         text.remove_prefix(end + 1);
     }
     return result;
+}
+
+/// A path within the quotes of an #SBATCH line, where % stands for numbers of jobs.
+std::string in_directive(const std::string& path) {
+    std::string text;
+    for (const char c : path) text += c == '%' ? std::string("%%") : std::string(1, c);
+    return text;
 }
 
 std::string shell_words(const std::vector<std::string>& words) {
@@ -139,7 +146,7 @@ SlurmScripts slurm_scripts(const FarmJob& job) {
     SlurmScripts scripts;
     scripts.render = filled(kRenderScript, {{"job", job.name},
                                             {"last_task", std::to_string(job.chunks.size() * bands - 1)},
-                                            {"logs", job.log_folder},
+                                            {"logs", in_directive(job.log_folder)},
                                             {"logs_quoted", shell_quoted(job.log_folder)},
                                             {"threads", std::to_string(job.threads)},
                                             {"megabytes", std::to_string(job.memory_bytes / 1'000'000 + 1)},
@@ -151,7 +158,7 @@ SlurmScripts slurm_scripts(const FarmJob& job) {
                                             {"arguments", shell_words(job.arguments)},
                                             {"retries", std::to_string(job.retries)}});
     scripts.collect = filled(kCollectScript, {{"job", job.name},
-                                              {"logs", job.log_folder},
+                                              {"logs", in_directive(job.log_folder)},
                                               {"folder", shell_quoted(job.folder)},
                                               {"joins", joins(job)},
                                               {"removal", removal(job)},
