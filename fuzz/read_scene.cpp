@@ -1,5 +1,5 @@
-// Reads its input as a scene file and loads what it describes. Anything must end in a scene or in
-// an InputError.
+// Reads its input as a scene file and loads what it describes. Anything must end in a scene, an
+// InputError or a UsageError.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,6 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const burin::Scene scene = burin::load_scene(burin::read_scene_file(path, {}));
         burin::resolve_camera(scene.cameras.front(), burin::scene_points(scene), 1.5);
     } catch (const burin::InputError&) {
+    } catch (const burin::UsageError&) {  // a model per frame, and no frame
     }
     return 0;
 }
