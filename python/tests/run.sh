@@ -22,6 +22,8 @@ venv=$folder/venv/bin/python
 BURIN=$program "$venv" -m pytest -q -p no:cacheprovider --import-mode=importlib "$here" || fail "tests"
 installed=$("$venv" -c 'import burin, os; print(os.path.dirname(burin.__file__))')
 "$venv" -m mypy --strict --cache-dir "$folder/mypy" "$installed" || fail "types"
-# Metaclasses of pybind11 are no part of what users see.
-"$venv" -m mypy.stubtest burin._core --ignore-missing-stub --allowlist <(printf '%s\n' 'burin._core.*__class__' 'burin\._core\..*\.__init__' '.*pybind11.*') >"$folder/stubtest" 2>&1 ||
-    { grep -v metaclass "$folder/stubtest" | grep -q '^error:' && { cat "$folder/stubtest" >&2; fail "stubs"; }; }
+# Metaclasses of pybind11 are no part of what users see, nor how its classes without arguments are made.
+"$venv" -m mypy.stubtest burin._core --ignore-missing-stub >"$folder/stubtest" 2>&1 || true
+if grep '^error:' "$folder/stubtest" | grep -v -e 'metaclass differs' -e '__init__ is inconsistent'; then
+    fail "stubs"
+fi
