@@ -399,8 +399,7 @@ class Scene {
         };
         return call(explained, view, options);
     }
-    /// From any thread: see burin_cancel().
-    void cancel() noexcept { burin_cancel(get()); }
+    void cancel() noexcept { burin_cancel(get()); }  ///< from any thread
     burin_scene* get() const noexcept { return scene_.get(); }
 
   private:
@@ -445,7 +444,6 @@ class Scene {
             return failed("it threw what is no std::exception");
         }
     }
-
     struct Teller {
         const std::function<bool(double)>& progress;
         std::exception_ptr thrown;
@@ -490,7 +488,6 @@ class Scene {
         if (result == nullptr && teller.thrown) std::rethrow_exception(teller.thrown);
         return checked(result);
     }
-
     struct Free {
         void operator()(burin_scene* scene) const noexcept { burin_scene_free(scene); }
     };

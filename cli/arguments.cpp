@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/suggestion.h"
+#include "base/version.h"
 #include "cli/fill_arguments.h"
 #include "cli/option_texts.h"
 #include "cli/option_values.h"
@@ -296,7 +297,7 @@ void put_command_first(const CLI::App& app, std::vector<std::string>& arguments)
 std::optional<Arguments> parse_arguments(int argc, char** argv) {
     Texts t;
     CLI::App app{"burin draws the lines of 3D models: silhouettes, creases, borders, intersections.", "burin"};
-    app.set_version_flag("--version", std::string("burin 0.1.0"));
+    app.set_version_flag("--version", kProgramVersion);
     app.require_subcommand(1);
     CLI::App* const render = app.add_subcommand("render", "draw a scene or a model");
     add_scene_options(*render, t);

@@ -12,18 +12,6 @@
 namespace burin {
 namespace {
 
-void add(const RenderStats& more, RenderStats& sum) {
-    for (double RenderStats::*stage : {&RenderStats::prepare_s, &RenderStats::raster_s, &RenderStats::resolve_s,
-                                       &RenderStats::lines_s, &RenderStats::shade_s, &RenderStats::write_s})
-        sum.*stage += more.*stage;
-    sum.triangles = more.triangles;
-    sum.fragments += more.fragments;
-    sum.threads = more.threads;
-    for (const std::string& note : more.notes) {
-        if (std::find(sum.notes.begin(), sum.notes.end(), note) == sum.notes.end()) sum.notes.push_back(note);
-    }
-}
-
 PixelRect cell_of(const ViewArea& area, int width, int height) {
     const auto pixel = [](double share, int side) {
         return std::clamp(static_cast<int>(std::lround(share * side)), 0, side);

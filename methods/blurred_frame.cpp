@@ -118,18 +118,6 @@ class BlurredFrame {
         sums.put_mean(static_cast<int>(subs.size()), film_.image(), options.threads);
     }
 
-    static void add(const RenderStats& more, RenderStats& sum) {
-        for (double RenderStats::*stage : {&RenderStats::prepare_s, &RenderStats::raster_s, &RenderStats::resolve_s,
-                                           &RenderStats::lines_s, &RenderStats::shade_s, &RenderStats::write_s})
-            sum.*stage += more.*stage;
-        sum.triangles = more.triangles;
-        sum.fragments += more.fragments;
-        sum.threads = more.threads;
-        for (const std::string& note : more.notes) {
-            if (std::find(sum.notes.begin(), sum.notes.end(), note) == sum.notes.end()) sum.notes.push_back(note);
-        }
-    }
-
     const Method& method_;
     const Blur& blur_;
     const MomentAt& moment_at_;

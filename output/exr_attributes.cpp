@@ -8,6 +8,10 @@
 #include <numeric>
 #include <string>
 
+#include "base/version.h"
+
+#include "base/version.h"
+
 namespace burin {
 namespace {
 
@@ -73,7 +77,7 @@ ExrRational rational_of(double frames_per_second) {
 
 ExrOptions exr_options_of(const Frame& frame, std::optional<int> image_counter, bool has_camera) {
     ExrOptions exr;
-    exr.attributes.push_back({"software", "burin 0.1.0"});
+    exr.attributes.push_back({"software", kProgramVersion});
     exr.attributes.push_back({"framesPerSecond", rational_of(frame.scene->frame.fps)});
     if (image_counter) exr.attributes.push_back({"imageCounter", static_cast<std::int32_t>(*image_counter)});
     if (!has_camera) return exr;

@@ -12,7 +12,7 @@ constexpr std::size_t kMostVertices = 1 << 15;
 /// A rectangle of the screen, and what lies behind it.
 class Sight {
   public:
-    /// The picture, and so many times its size around it.
+    /// Sees a picture of `size` pixels, and around it a margin of `margin` times its width and height.
     Sight(const Projection& projection, glm::dvec2 size, double margin)
         : p_(projection), low_(-margin * size), high_((1 + margin) * size) {}
 

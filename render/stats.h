@@ -20,4 +20,7 @@ struct RenderStats {
     std::vector<std::string> notes;  ///< what the user should know of the picture
 };
 
+/// Adds the stages and counts of another part of the same picture; each note stands once.
+void add(const RenderStats& more, RenderStats& sum);
+
 }  // namespace burin

@@ -4,11 +4,10 @@
 
 #include "base/interrupt.h"
 #include "base/mapped_file.h"
+#include "base/version.h"
 
 namespace burin {
 namespace {
-
-constexpr const char* kProgram = "burin 0.1.0";
 
 void add(const glm::dmat4& matrix, ContentHash& hash) {
     for (int column = 0; column < 4; ++column) {
@@ -25,7 +24,7 @@ void add_content(const std::string& path, ContentHash& hash) {
 }  // namespace
 
 Fingerprints::Fingerprints(const Arguments& a, const LoadedInput& input) : arguments_(a) {
-    of_all_.add(kProgram).add(input.hash).add(a.picture_options);
+    of_all_.add(kProgramVersion).add(input.hash).add(a.picture_options);
     of_all_.add(input.scene.frame.fps);
     if (!a.method.empty() && a.method != "abuffer") {  // what fit_depth_ranges() fits to
         for (const double frame : input.frame_range) of_all_.add(frame);

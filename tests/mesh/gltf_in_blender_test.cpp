@@ -47,7 +47,7 @@ std::vector<double> turned(double degrees, const glm::dvec3& axis) {
     return {v.x, v.y, v.z, std::cos(half)};
 }
 
-/// A band that hangs on two joints, and a plate with two morph targets; all of it moves, with a key at each frame.
+/// A band whose ends follow two joints, and a plate with two morph targets; all of it moves, with a key at each frame.
 /// Weights are from 0 to 1, for Blender takes no others.
 GltfParts moving_parts() {
     GltfAccessors a;
