@@ -149,6 +149,10 @@ void add_chains(const FoundLines& lines, ArrayWriter& out) {
     out.add<std::uint64_t>("chain_key", runs.size(), 1,
                            [&](std::size_t i, std::uint64_t* v) { v[0] = runs[i].chain_place; });
     out.add<double>("chain_length", runs.size(), 1, [&](std::size_t i, double* v) { v[0] = runs[i].chain_length_px; });
+    out.add<float>("chain_gaps", runs.size(), 4, [&](std::size_t i, float* v) {
+        const LineRun& r = runs[i];
+        v[0] = r.gaps_px[0], v[1] = r.gaps_px[1], v[2] = r.onward_gaps_px[0], v[3] = r.onward_gaps_px[1];
+    });
     out.add<std::uint8_t>("chain_flags", runs.size(), 1, [&](std::size_t i, std::uint8_t* v) {
         const LineRun& r = runs[i];
         v[0] = static_cast<std::uint8_t>(

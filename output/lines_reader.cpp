@@ -339,6 +339,12 @@ void read_chains(const ArrayReader& in, FoundLines& lines) {
         if (v[0] < 0) in.fail_at("chain_length", i, "is negative");
         runs[i].chain_length_px = v[0];
     });
+    in.take<float>("chain_gaps", runs.size(), 4, [&](std::size_t i, const float* v) {
+        if (std::any_of(v, v + 4, [](float gap) { return gap < 0 || gap > kFarthestGapPx; }))
+            in.fail_at("chain_gaps", i, "is out of range");
+        runs[i].gaps_px = {v[0], v[1]};
+        runs[i].onward_gaps_px = {v[2], v[3]};
+    });
     in.take<std::uint8_t>("chain_flags", runs.size(), 1, [&](std::size_t i, const std::uint8_t* v) {
         if (v[0] >= 4 * kLastEnd) in.fail_at("chain_flags", i, "is out of range");
         runs[i].is_hidden = (v[0] & kHidden) != 0;
