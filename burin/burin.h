@@ -32,7 +32,7 @@ extern "C" {
 
 /** The version of this interface. It counts up with every change; a library works for programs that were built with
  * the same number or a smaller one. */
-#define BURIN_ABI 5
+#define BURIN_ABI 6
 /** BURIN_ABI of the library that is loaded. */
 BURIN_API int burin_abi(void);
 /** Its version, "0.1.0". */
@@ -171,7 +171,9 @@ typedef struct burin_view {
     double ortho_height;        /**< with a matrix: visible height in world units, orthographic; 0: perspective */
     double shift[2];     /**< with a matrix: the lens is shifted, so that the picture shows what is so much farther
                               to the right and up, in heights of the picture, -100 to 100 */
-    double pixel_aspect; /**< for later; must be 1, or 0, which counts as 1 */
+    double pixel_aspect; /**< the width of a pixel / its height, as a display shows it, 0.1 to 10; 0: as the camera
+                              says, 1 with a matrix. Widths of lines are in pixels along either axis. Vector files can
+                              be made with 1 only */
 } burin_view;
 
 /** How to work. Nothing here changes a pixel. */

@@ -88,6 +88,7 @@ struct View {
     double fov_deg = 0;
     double ortho_height = 0;
     std::array<double, 2> shift{};  ///< with a matrix: of the lens, to the right and up, in heights of the picture
+    double pixel_aspect = 0;        ///< a pixel's width / its height; 0: as the camera says
     int frame = 0;
 };
 
@@ -474,6 +475,7 @@ class Scene {
         v.fov_deg = view.fov_deg;
         v.ortho_height = view.ortho_height;
         std::copy(view.shift.begin(), view.shift.end(), v.shift);
+        v.pixel_aspect = view.pixel_aspect;
         v.frame = view.frame;
         Teller teller{options.progress, nullptr};
         burin_options o = {.size = sizeof o,

@@ -27,7 +27,8 @@ struct VectorStats {
 };
 
 /// Makes a drawing of lines with their looks: joins strokes to the longest paths, takes away what is drawn twice, and
-/// fits curves. `inked`: with origins. Of `lines` it reads what describes the picture, and the names of objects.
+/// fits curves. `inked`: with origins. Of `lines` it reads what describes the picture, and the names of objects. Throws
+/// UsageError if its pixels are not square.
 VectorDrawing vector_drawing_of(InkedLines inked, const FoundLines& lines, const VectorOptions& options,
                                 VectorStats& stats);
 
