@@ -190,7 +190,8 @@ typedef struct burin_options {
     void* user;        /**< for `progress` */
     int32_t for_paths; /**< of burin_find_lines(), not 0: a drawing can be written as a vector file without a style
                             sheet, too: the look of the scene then counts as one, which draws the same lines, though
-                            not to the bit */
+                            not to the bit. With a style sheet: paths of an SVG say their edges, as the program's do,
+                            whatever the sheet asks for */
     int32_t find_all;  /**< of burin_find_lines(), not 0: lines are found as if a style sheet asked for all that there
                             is, so that burin_draw() takes any sheet of the same crease_angle and contours; without a
                             sheet for_paths is meant, too */
@@ -351,6 +352,10 @@ BURIN_API int burin_encode(const void* picture_or_drawing, const char* format, c
                            uint64_t* count);
 /** The same into a file, which appears under its name only when it is complete. `format` NULL: by the path's suffix. */
 BURIN_API int burin_write(const void* picture_or_drawing, const char* format, const char* style, const char* path);
+/** What the last burin_encode() or burin_write() of this thread that did not fail could not draw or say as it stands,
+ * such as colours that vary along a path: note `index`, from 0, as the program prints it; NULL behind the last one,
+ * which is no failure. Valid until the next of these calls on this thread. */
+BURIN_API const char* burin_file_note(int index);
 /** NULL is allowed. */
 BURIN_API void burin_bytes_free(uint8_t* bytes);
 

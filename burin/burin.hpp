@@ -102,6 +102,13 @@ struct Options {
     bool for_paths = false, find_all = false;
 };
 
+/// What the file that this thread made last does not have as it stands; see burin_file_note().
+inline std::vector<std::string> file_notes() {
+    std::vector<std::string> notes;
+    for (int i = 0; const char* const note = burin_file_note(i); ++i) notes.emplace_back(note);
+    return notes;
+}
+
 /// The bytes of a file of a picture or a drawing.
 inline std::vector<std::byte> encoded(const void* picture_or_drawing, const std::string& format,
                                       const char* style = nullptr) {

@@ -23,8 +23,8 @@ SceneForFrame::SceneForFrame(burin_scene& state, const burin_view& view, const O
     scene_.lines = settings.lines;
     scene_.sheet = settings.sheet;
     scene_.line_shaders = state.line_shaders;
-    if (options.for_paths && !scene_.sheet) {
-        scene_.sheet = std::make_shared<const StyleSheet>(plain_sheet(scene_.lines));
+    if (options.for_paths) {
+        if (!scene_.sheet) scene_.sheet = std::make_shared<const StyleSheet>(plain_sheet(scene_.lines));
         scene_.names_lines = true;
     }
     if (options.finds_all) {

@@ -69,6 +69,12 @@ void add_in_parts(VectorPath path, VectorDrawing& drawing) {
 
 }  // namespace
 
+std::string note_on_means(const VectorStats& stats) {
+    if (stats.mean_inks == 0) return {};
+    return "a path has one colour and opacity: " + std::to_string(stats.mean_inks) +
+           " strokes that vary in them have their means";
+}
+
 VectorDrawing vector_drawing_of(InkedLines inked, const FoundLines& found, const VectorOptions& options,
                                 VectorStats& stats) {
     if (found.projection.pixel_aspect != 1) {

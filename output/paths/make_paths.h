@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "base/progress.h"
 #include "output/paths/fit_path.h"
@@ -31,5 +32,8 @@ struct VectorStats {
 /// UsageError if its pixels are not square.
 VectorDrawing vector_drawing_of(InkedLines inked, const FoundLines& lines, const VectorOptions& options,
                                 VectorStats& stats);
+
+/// What users should know of paths that are not drawn as their strokes were; empty: nothing.
+std::string note_on_means(const VectorStats& stats);
 
 }  // namespace burin

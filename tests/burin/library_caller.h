@@ -384,6 +384,7 @@ class LibraryCaller : private AnyArguments<Choices> {
         const int result = burin_encode(given, format, as, random_.integer(0, 99) == 0 ? nullptr : &bytes, &count);
         expect_told(result);
         if (result == 0) read(bytes, count);
+        burin_file_note(integer());
         burin_bytes_free(bytes);
     }
     void look_at_channels() {
