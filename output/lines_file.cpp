@@ -213,6 +213,8 @@ std::map<std::string, std::string> metadata_of(const FoundLines& lines, const Ke
     const auto number = [](double value) { return nlohmann::json(value).dump(); };
     data["fps"] = number(lines.fps);
     data["dpi"] = number(lines.dpi);
+    const double pixel_aspect = lines.projection.pixel_aspect;
+    if (pixel_aspect != 1) data["pixel_aspect"] = nlohmann::json(pixel_aspect).dump();
     if (lines.paper_mm.x > 0) data["paper_mm"] = nlohmann::json{lines.paper_mm.x, lines.paper_mm.y}.dump();
     data["crease_angle"] = nlohmann::json{lines.crease_angle_deg[0], lines.crease_angle_deg[1]}.dump();
     if (const auto& light = lines.scene_light) {
