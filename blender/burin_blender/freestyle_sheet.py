@@ -99,8 +99,7 @@ class FreestyleSheet:
             self.sheet.table("[style.none]", [])
             return
         rules = self.rules.conditions(self.sheet, self.crease_degrees)
-        # Later line sets lie above earlier ones; the first set of a sheet is the uppermost.
-        for number, (line_set, condition) in reversed(list(enumerate(self.sets))):
+        for number, (line_set, condition) in enumerate(self.sets):
             conditions = [c for c in (condition, self.collection_condition(line_set), *rules) if c]
             entries = [f"name = {quoted(f'{number} {line_set.name}')}", f"classes = {quoted_list(sorted(self.classes))}",
                        f"qi = {visibility(line_set)}", "also = true", f'style = "style_{number}"']
@@ -124,11 +123,13 @@ class FreestyleSheet:
         """The keys of a line style."""
         line_style = line_set.linestyle
         place = "(run_s / max(run_length, 0.001))" if line_set.select_by_visibility else "t"
-        values = StyleValues(self.sheet, line_style, place, [m for m in self.scene_materials()])
+        values = StyleValues(self.sheet, line_style, place, self.scene_materials())
         for what in values.notes + not_carried(line_style):
             self.note(line_set, what)
         width = self.sheet.let(f"{values.thickness} * {number_text(thickness_unit(self.scene))}")
-        entries = [f"priority = {number}", key("opacity", values.alpha), key("color", values.color),
+        # In Freestyle, too, the first line set lies above the others.
+        entries = [f"priority = {len(self.sets) - number}", key("opacity", opacity(self.sheet, values.alpha)),
+                   key("color", values.color),
                    *side_keys(line_style, width)]
         pattern = dash_pattern(line_style)
         if pattern:
@@ -144,7 +145,7 @@ class FreestyleSheet:
             for slot in thing.material_slots:
                 if slot.material is not None:
                     found[slot.material.name] = slot.material
-        return found.values()
+        return list(found.values())
 
 
 def quoted_list(texts):
@@ -190,6 +191,15 @@ def side_keys(line_style, width):
         return [key("width", width), key("offset", f"{SIDED} ? {shift} * {width} : 0")]
     # A side is one half of a stroke.
     return [key("width", f"{SIDED} ? 2 * {width} : {width}"), f"side = {quoted(position.lower())}"]
+
+
+def opacity(sheet, alpha):
+    """How much a stroke covers. Freestyle's strokes have their alpha in a colour attribute, which Blender takes to be
+    sRGB: an alpha of 0.5 covers 21 %."""
+    if alpha == "1.0":
+        return alpha
+    name = sheet.let(f"clamp({alpha}, 0, 1)")
+    return sheet.let(f"({name} <= 0.04045 ? {name} / 12.92 : (({name} + 0.055) / 1.055) ^ 2.4)")
 
 
 def dash_pattern(line_style):
