@@ -8,8 +8,9 @@ import numpy as np
 from . import camera, core
 from .child import Cancelled, ChildError, work_in_child
 from .gather import gather
+from .job import Job
 from .passes import missing_passes, passes_of
-from .result import Job, give_to_blender
+from .result import give_to_blender
 
 try:
     from . import viewport
@@ -63,6 +64,13 @@ def unsupported(scene, camera_object):
     if scene.render.use_freestyle:
         notes.add("Freestyle is on, and Blender runs it beside Burin; switch it off in the render properties")
     return notes
+
+
+def draws_marks(sheet, lines):
+    """Whether marked edges may be lines. Of a sheet that is only named it is not known."""
+    if sheet is not None:
+        return "mark" in sheet or "\n" not in sheet
+    return any(line.startswith("lines.draw=") and ("mark" in line or "all" in line) for line in lines)
 
 
 class BurinEngine(bpy.types.RenderEngine):
@@ -120,9 +128,10 @@ class BurinEngine(bpy.types.RenderEngine):
         view["frame"] = scene.frame_current
         settings = getattr(scene, "burin", None)
         view["samples"] = samples_of(getattr(settings, "samples", "AUTO"))
-        gathered = gather(depsgraph)
+        sheet, lines = sheet_text(scene, view_layer), settings_lines(scene, view_layer)
+        gathered = gather(depsgraph, draws_marks(sheet, lines))
         self.tell("WARNING", gathered.notes | missing_passes(view_layer) | unsupported(scene, camera_object))
-        job = Job(gathered, view, passes_of(view_layer), sheet_text(scene, view_layer), settings_lines(scene, view_layer))
+        job = Job(gathered, view, passes_of(view_layer), sheet, lines)
         job.threads = scene.render.threads if scene.render.threads_mode == "FIXED" else getattr(settings, "threads", 0)
         job.memory_bytes = getattr(settings, "memory_mb", 0) * 1000000
         if not scene.render.film_transparent:

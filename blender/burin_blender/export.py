@@ -20,9 +20,9 @@ class Session:
         self.numbers = []  # of the objects
         self.matrices = np.empty((0, 16))
 
-    def update(self, depsgraph):
+    def update(self, depsgraph, with_marks=True):
         """Brings meshes, materials and objects up to date. Gives sentences that say what was not understood."""
-        gathered = gather(depsgraph)
+        gathered = gather(depsgraph, with_marks)
         self.apply(gathered)
         return sorted(gathered.notes)
 

@@ -1,64 +1,16 @@
 """What is to be drawn, copied from Blender's dependency graph into arrays: nothing here refers to Blender's memory."""
 
-import zlib
 from typing import NamedTuple
 
 import numpy as np
 
 from .line_art import Usages
 from .materials import look_of
+from .mesh_arrays import MeshArrays
 
 SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 # What has no surface of its own and is no loss.
 OTHER_TYPES = {"EMPTY", "CAMERA", "LIGHT", "LIGHT_PROBE", "LIGHTPROBE", "ARMATURE", "LATTICE", "SPEAKER"}
-
-
-class MeshArrays:
-    """The polygons of an evaluated mesh, as they are."""
-
-    def __init__(self, mesh, name):
-        self.name = name
-        polygon_count = len(mesh.polygons)
-        self.points = taken(mesh.vertices, "co", 3 * len(mesh.vertices), np.float32)
-        self.corners = taken(mesh.loops, "vertex_index", len(mesh.loops), np.int32)
-        self.sizes = taken(mesh.polygons, "loop_total", polygon_count, np.int32)
-        if len(self.corners) == 3 * polygon_count and (self.sizes == 3).all():
-            self.sizes = None
-        self.slots = taken(mesh.polygons, "material_index", polygon_count, np.int32)
-        if not self.slots.any():
-            self.slots = None
-        self.marks = marked_edges(mesh)
-        self._key = None
-
-    def is_empty(self):
-        return len(self.corners) == 0 and self.marks is None
-
-    def key(self):
-        """Equal for equal meshes: their sizes and a checksum of all numbers."""
-        if self._key is None:
-            arrays = [a for a in (self.points, self.corners, self.sizes, self.slots, self.marks) if a is not None]
-            checksum = 0
-            for array in arrays:
-                checksum = zlib.crc32(array, checksum)
-            self._key = (checksum, *(array.size for array in arrays))
-        return self._key
-
-
-def taken(collection, attribute, count, kind):
-    array = np.empty(count, kind)
-    collection.foreach_get(attribute, array)
-    return array
-
-
-def marked_edges(mesh):
-    """The pairs of points of Freestyle's marked edges; None: there are none."""
-    try:
-        marked = taken(mesh.edges, "use_freestyle_mark", len(mesh.edges), bool)
-    except AttributeError:  # a Blender that was built without Freestyle
-        return None
-    if not marked.any():
-        return None
-    return np.ascontiguousarray(taken(mesh.edges, "vertices", 2 * len(mesh.edges), np.int32).reshape(-1, 2)[marked])
 
 
 class Placed(NamedTuple):
@@ -84,8 +36,9 @@ class Gathered:
 class Gatherer:
     """Goes over a dependency graph once."""
 
-    def __init__(self, depsgraph):
+    def __init__(self, depsgraph, with_marks):
         self.depsgraph = depsgraph
+        self.with_marks = with_marks
         self.view_layer = depsgraph.view_layer_eval
         self.is_render = depsgraph.mode == "RENDER"
         self.result = Gathered()
@@ -148,7 +101,7 @@ class Gatherer:
         key = (thing.data if is_mesh else thing).as_pointer()
         if key not in self.mesh_numbers:
             mesh = thing.data if is_mesh else thing.to_mesh()
-            arrays = None if mesh is None else MeshArrays(mesh, thing.name)
+            arrays = None if mesh is None else MeshArrays(mesh, thing.name, self.with_marks)
             if not is_mesh:
                 thing.to_mesh_clear()
             if arrays is None or arrays.is_empty():
@@ -182,5 +135,6 @@ class Gatherer:
         self.result.matrices = matrices[kept]
 
 
-def gather(depsgraph):
-    return Gatherer(depsgraph).gather()
+def gather(depsgraph, with_marks=True):
+    """Copies what a view layer shows. `with_marks`: Freestyle's marked edges, too, which takes time."""
+    return Gatherer(depsgraph, with_marks).gather()

@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-BACKGROUND_DEPTH = 1e10  # as Blender's own engines have it
-CRYPTO_RANKS = 6  # names that the library keeps for a pixel
+from .cryptomatte import RANKS
+
 
 
 class Pass(NamedTuple):
@@ -58,8 +58,8 @@ def missing_passes(view_layer):
     if view_layer.use_pass_cryptomatte_asset:
         notes.add("the pass CryptoAsset is not drawn")
     has_crypto = view_layer.use_pass_cryptomatte_object or view_layer.use_pass_cryptomatte_material
-    if has_crypto and view_layer.pass_cryptomatte_depth > CRYPTO_RANKS:
-        notes.add(f"passes of Cryptomatte have {CRYPTO_RANKS} levels at most")
+    if has_crypto and view_layer.pass_cryptomatte_depth > RANKS:
+        notes.add(f"passes of Cryptomatte have {RANKS} levels at most")
     names = {"mist": "Mist", "position": "Position", "vector": "Vector", "uv": "UV", "shadow": "Shadow",
              "ambient_occlusion": "Ambient Occlusion", "emit": "Emission", "environment": "Environment",
              "diffuse_color": "Diffuse Color", "glossy_color": "Glossy Color"}
@@ -69,100 +69,31 @@ def missing_passes(view_layer):
     return notes
 
 
+def channels_of(wanted):
+    """The library's channels that a pass is made of."""
+    if wanted.name == "Depth":
+        return ["Z"]
+    if wanted.name == "Normal":
+        return ["N.X", "N.Y", "N.Z"]
+    single = {"IndexOB": "index.object", "IndexMA": "index.material", "ObjectNumber": "id.object",
+              "MaterialNumber": "id.material"}.get(wanted.name)
+    if single:
+        return [single]
+    prefix = {"Combined": "", "Lines": "lines.", "LinesHidden": "lines_hidden."}.get(wanted.name, wanted.name + ".")
+    return [prefix + letter for letter in "RGBA"]
+
+
+def type_of(channel):
+    """What the library's values of a channel are; `index` is made from ids, by DrawnScene."""
+    if channel.startswith("id."):
+        return np.dtype(np.uint32)
+    is_float = channel == "Z" or channel.startswith(("index.", "Crypto"))
+    return np.dtype(np.float32 if is_float else np.float16)
+
+
 def layers_for(passes, has_holdouts):
     """The library's layers that passes are made of, as its option has them."""
     layers = dict.fromkeys(p.layers for p in passes)
     if has_holdouts:
         layers["CryptoObject"] = None
     return ",".join(layers)
-
-
-def half_as_float():
-    """All 65536 halfs as floats: a table is 4 times as fast as NumPy's conversion."""
-    return np.arange(65536, dtype=np.uint16).view(np.float16).astype(np.float32)
-
-
-class PassFiller:
-    """Fills arrays (height, width, channels), rows from the bottom, with the passes of one picture."""
-
-    def __init__(self, picture, gathered, session):
-        self.picture = picture
-        self.gathered = gathered
-        self.session = session
-        self.names = set(picture.channel_names())
-        self.floats = half_as_float()
-
-    def fill(self, wanted_pass, out):
-        """What the picture does not have stays as it is, 0."""
-        name = wanted_pass.name
-        if name == "Depth":
-            np.minimum(self.channel("Z"), BACKGROUND_DEPTH, out=out[..., 0])
-        elif name == "Normal":
-            self.fill_channels(["N.X", "N.Y", "N.Z"], out)
-        elif name == "IndexOB":
-            self.fill_indices("id.object", self.object_index, out)
-        elif name == "IndexMA":
-            self.fill_indices("id.material", self.material_index, out)
-        elif name in {"ObjectNumber", "MaterialNumber"}:
-            out[..., 0] = self.channel("id." + name.removesuffix("Number").lower())
-        else:
-            prefix = {"Combined": "", "Lines": "lines.", "LinesHidden": "lines_hidden."}.get(name, name + ".")
-            self.fill_channels([prefix + letter for letter in "RGBA"], out)
-
-    def channel(self, name):
-        """The values of a channel, rows from the bottom."""
-        values = self.picture.channel(name)[::-1]
-        return self.floats[values.view(np.uint16)] if values.dtype == np.float16 else values
-
-    def fill_channels(self, names, out):
-        if names[0] in self.names:
-            for i, name in enumerate(names):
-                out[..., i] = self.channel(name)
-
-    def fill_indices(self, name, index_of, out):
-        ids = self.channel(name)
-        indices = np.zeros(int(ids.max(initial=0)) + 1, np.float32)
-        for number in np.unique(ids[ids > 0]):
-            indices[number] = index_of(int(number))
-        out[..., 0] = indices[ids]
-
-    def object_index(self, number):
-        first = self.session.numbers[0]
-        return self.gathered.objects[self.session.scene.object_of_id(number) - first].pass_index
-
-    def material_index(self, number):
-        return next((look.pass_index for look, known in self.session.materials.items() if known == number), 0)
-
-    def share_of(self, names):
-        """How much of each pixel objects of some names cover, and all do: their surfaces and lines."""
-        share = np.zeros(self.channel("A").shape, np.float32)
-        hashes = np.array([crypto_hash(name) for name in names], np.uint32)
-        for rank in range(CRYPTO_RANKS // 2):
-            for name, part in (("R", "G"), ("B", "A")):
-                known = np.isin(self.channel(f"CryptoObject{rank:02}.{name}").view(np.uint32), hashes)
-                share += np.where(known, self.channel(f"CryptoObject{rank:02}.{part}"), 0)
-        return share
-
-
-def crypto_hash(name):
-    """MurmurHash3 (x86, 32 bits, seed 0) of a name, changed in one bit where it would be no ordinary float."""
-    data = name.encode("utf-8", "replace")
-    mask = 0xFFFFFFFF
-
-    def scrambled(k):
-        k = k * 0xCC9E2D51 & mask
-        return (k << 15 | k >> 17) * 0x1B873593 & mask
-
-    value = 0
-    whole = len(data) // 4 * 4
-    for i in range(0, whole, 4):
-        value ^= scrambled(int.from_bytes(data[i:i + 4], "little"))
-        value = ((value << 13 | value >> 19) * 5 + 0xE6546B64) & mask
-    if whole < len(data):
-        value ^= scrambled(int.from_bytes(data[whole:], "little"))
-    value ^= len(data)
-    value = (value ^ value >> 16) * 0x85EBCA6B & mask
-    value = (value ^ value >> 13) * 0xC2B2AE35 & mask
-    value ^= value >> 16
-    exponent = value >> 23 & 255
-    return value ^ 1 << 23 if exponent in (0, 255) else value
