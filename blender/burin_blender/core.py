@@ -94,6 +94,10 @@ class Scene:
     def clear_objects(self):
         checked(burin().burin_clear_objects(self.handle))
 
+    def object_of_id(self, number):
+        """Which object has a number in the channel id.object."""
+        return checked(burin().burin_object_of_id(self.handle, number))
+
     def set(self, key_and_value):
         checked(burin().burin_set(self.handle, key_and_value.encode()))
 
@@ -101,13 +105,13 @@ class Scene:
         """None or "" takes the style sheet away."""
         checked(burin().burin_set_style(self.handle, (text_or_name or "").encode()))
 
-    def render(self, view, layers=None, threads=0, progress=None):
+    def render(self, view, layers=None, threads=0, memory_bytes=0, progress=None):
         """Draws. `view`: a dict of fields of burin_view; `progress(done)` returns True to stop. Gives a Picture."""
         given = interface.View(size=ctypes.sizeof(interface.View))
         for name, value in view.items():
             kind = type(getattr(given, name))
             setattr(given, name, kind(*value) if issubclass(kind, ctypes.Array) else value)
-        options = interface.Options(size=ctypes.sizeof(interface.Options), threads=threads,
+        options = interface.Options(size=ctypes.sizeof(interface.Options), threads=threads, memory_bytes=memory_bytes,
                                     layers=None if layers is None else layers.encode())
         if progress is not None:
             options.progress = interface.PROGRESS(lambda done, user: 1 if progress(done) else 0)

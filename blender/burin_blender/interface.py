@@ -54,6 +54,7 @@ FUNCTIONS = {
     "burin_remove_mesh": (c_int, c_void_p, c_int),
     "burin_add_object": (c_int, c_void_p, POINTER(Object)),
     "burin_move_object": (c_int, c_void_p, c_int, POINTER(c_double)),
+    "burin_object_of_id": (c_int, c_void_p, c_uint32),
     "burin_clear_objects": (c_int, c_void_p),
     "burin_set": (c_int, c_void_p, c_char_p),
     "burin_set_style": (c_int, c_void_p, c_char_p),
