@@ -8,7 +8,7 @@ class LiveGatherer(Gatherer):
     have not changed from `kept`, which it fills."""
 
     def __init__(self, depsgraph, space, kept):
-        super().__init__(depsgraph)
+        super().__init__(depsgraph, with_marks=True)
         self.space = space
         self.kept = kept
         self.seen = set()

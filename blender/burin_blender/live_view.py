@@ -12,7 +12,7 @@ from .full_picture import FullPicture
 from .live_gather import LiveGatherer, forget_changed
 from .look import Look
 from .view_fields import fields_of
-from .view_pixels import ShownPicture, pixels_of
+from .view_pixels import PixelMemory, ShownPicture
 
 PREVIEW_SAMPLES = 2
 REST_S = 0.15  # after so long without a change the full picture is made
@@ -31,7 +31,7 @@ class LiveView:
         self.look_error, self.error = "", ""
         self.owner = ("", "")  # names of scene and view layer
         self.look_at = 0  # when the look is to be compared again
-        self.key, self.shown = None, None
+        self.key, self.shown, self.memory = None, None, PixelMemory()
         self.view, self.options = {}, (0, 0)  # samples of the full picture, threads
         self.full = None
         self.is_final = True  # nothing better will come
@@ -119,7 +119,7 @@ class LiveView:
 
     def show(self, picture, view, paper):
         x0, _, _, y1 = view.get("crop", (0, 0, view["width"], view["height"]))
-        self.shown = ShownPicture(pixels_of(picture, paper), x0, view["height"] - y1, paper is not None)
+        self.shown = ShownPicture(picture, x0, view["height"] - y1, paper, self.memory)
 
     def advance(self):
         """Begins the full picture when the view rests. Whether the viewport should be drawn again, for it is there."""
