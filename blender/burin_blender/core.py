@@ -29,6 +29,11 @@ def set_preference(program):
     _preference = program
 
 
+def preference():
+    """What was said last where the program or the library is; "" if nothing was."""
+    return _preference
+
+
 def burin():
     """The library. Throws LibraryError."""
     global _library
