@@ -57,9 +57,9 @@ def cameras_are_as_in_cycles():
     add("cube", "cube", size=1.6, location=(2.4, 0, .8))
     add("torus", "torus", location=(-1.5, -1, .4), major_radius=.8, minor_radius=.2)
     cycles = scene.cycles
-    cycles.samples, cycles.max_bounces, cycles.pixel_filter_type = 64, 0, "BOX"
+    cycles.samples, cycles.max_bounces, cycles.pixel_filter_type = 256, 0, "BOX"
     cycles.use_denoising = cycles.use_adaptive_sampling = False
-    scene.burin.line_types = set()
+    scene.burin.line_types, scene.burin.samples = set(), "8"
     for name, case in CASES.items():
         for defaults, owner in ((CAMERA, scene.camera.data), (RENDER, scene.render)):
             for key, value in defaults.items():
