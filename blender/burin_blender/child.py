@@ -40,9 +40,14 @@ class SharedMemory:
         return struct.unpack_from("d", self.memory, 0)[0]
 
 
-def end_with_parent(parent):
-    """Has the system kill this process when the thread that made it ends, with Blender or without."""
-    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
+def leave_blender(parent):
+    """Makes this process a renderer: no signal handler of Blender's runs (that for crashes writes a file), a Ctrl-C in
+    the terminal is for Blender alone, and the system kills this process when the thread that made it ends."""
+    libc = ctypes.CDLL(None)
+    for number in (signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL):
+        libc.signal(number, None)
+    os.setsid()
+    libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
     if os.getppid() != parent:
         os._exit(1)
 
@@ -52,8 +57,7 @@ def run_child(parent, writer, work, memory):
     status = 1
     try:
         gc.disable()  # nothing of Blender's is to be freed here
-        os.setsid()  # a Ctrl-C in the terminal is Blender's
-        end_with_parent(parent)
+        leave_blender(parent)
         try:
             said = {"result": work(memory)}
         except BaseException as error:

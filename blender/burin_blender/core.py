@@ -105,7 +105,7 @@ class Scene:
         """None or "" takes the style sheet away."""
         checked(burin().burin_set_style(self.handle, (text_or_name or "").encode()))
 
-    def render(self, view, layers=None, threads=0, memory_bytes=0, progress=None):
+    def render(self, view, layers=None, threads=0, progress=None, memory_bytes=0):
         """Draws. `view`: a dict of fields of burin_view; `progress(done)` returns True to stop. Gives a Picture."""
         given = interface.View(size=ctypes.sizeof(interface.View))
         for name, value in view.items():

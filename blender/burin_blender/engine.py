@@ -5,29 +5,13 @@ import re
 import bpy
 import numpy as np
 
-from . import camera, core
+from . import camera, core, line_sets, viewport
 from .child import Cancelled, ChildError, work_in_child
 from .gather import gather
 from .job import Job
 from .passes import missing_passes, passes_of
+from .properties import samples_of, settings_lines
 from .result import give_to_blender
-
-try:
-    from . import viewport
-except ImportError:
-    viewport = None
-try:
-    from .properties import samples_of, settings_lines
-    from .line_sets import sheet_text
-except ImportError:
-    def settings_lines(scene, view_layer):
-        return []
-
-    def sheet_text(scene, view_layer):
-        return None
-
-    def samples_of(choice):
-        return 0
 
 _told = set()  # what was reported already: an animation says each thing once
 
@@ -61,8 +45,6 @@ def unsupported(scene, camera_object):
         notes.add("motion blur is not drawn")
     if camera_object.type == "CAMERA" and camera_object.data.dof.use_dof:
         notes.add("depth of field is not drawn")
-    if scene.render.use_freestyle:
-        notes.add("Freestyle is on, and Blender runs it beside Burin; switch it off in the render properties")
     return notes
 
 
@@ -126,16 +108,17 @@ class BurinEngine(bpy.types.RenderEngine):
         view = camera.view_of_camera(camera_object, depsgraph, width, height)
         view["crop"] = crop_of(scene.render, width, height)
         view["frame"] = scene.frame_current
-        settings = getattr(scene, "burin", None)
-        view["samples"] = samples_of(getattr(settings, "samples", "AUTO"))
-        sheet, lines = sheet_text(scene, view_layer), settings_lines(scene, view_layer)
+        settings = scene.burin
+        view["samples"] = samples_of(settings.samples)
+        sheet, lines = line_sets.sheet_text(scene, view_layer), settings_lines(scene, view_layer)
         gathered = gather(depsgraph, draws_marks(sheet, lines))
         self.tell("WARNING", gathered.notes | missing_passes(view_layer) | unsupported(scene, camera_object))
+        self.tell("WARNING", line_sets.not_drawn(scene, view_layer))
         job = Job(gathered, view, passes_of(view_layer), sheet, lines)
-        job.threads = scene.render.threads if scene.render.threads_mode == "FIXED" else getattr(settings, "threads", 0)
-        job.memory_bytes = getattr(settings, "memory_mb", 0) * 1000000
+        job.threads = scene.render.threads if scene.render.threads_mode == "FIXED" else settings.threads
+        job.memory_bytes = settings.memory_mb * 1000000
         if not scene.render.film_transparent:
-            job.paper = tuple(getattr(settings, "background", (1.0, 1.0, 1.0)))
+            job.paper = tuple(settings.background)
         return job
 
     def tell(self, kind, notes):
@@ -150,13 +133,11 @@ class BurinEngine(bpy.types.RenderEngine):
 
     def view_update(self, context, depsgraph):
         """Something has changed that a viewport shows."""
-        if viewport:
-            viewport.view_update(self, context, depsgraph)
+        viewport.view_update(self, context, depsgraph)
 
     def view_draw(self, context, depsgraph):
         """A viewport is drawn."""
-        if viewport:
-            viewport.view_draw(self, context, depsgraph)
+        viewport.view_draw(self, context, depsgraph)
 
 
 def register():

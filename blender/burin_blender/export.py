@@ -30,10 +30,10 @@ class Session:
         """The same for what was gathered before."""
         used = set()
         placed = []
-        for thing in gathered.objects:
+        # All materials before the first mesh: those of the library's own for meshes without any come behind them.
+        numbers_of = [self.material_numbers(thing, gathered.meshes[thing.mesh]) for thing in gathered.objects]
+        for thing, numbers in zip(gathered.objects, numbers_of):
             arrays = gathered.meshes[thing.mesh]
-            looks = thing.looks if arrays.slots is not None and len(thing.looks) > 1 else thing.looks[:1]
-            numbers = tuple(self.material_number(look) for look in looks)
             # Polygons of one material leave it to the object, so that meshes need not be made anew for another one.
             key = (arrays.key(), numbers if len(numbers) > 1 else None)
             used.add(key)
@@ -45,12 +45,13 @@ class Session:
             self.scene.remove_mesh(self.meshes.pop(key))
         self.used = used
 
-    def material_number(self, look):
-        if look is None:
-            return 0
-        if look not in self.materials:
-            self.materials[look] = self.scene.add_material(look.name, look.color, look.opacity)
-        return self.materials[look]
+    def material_numbers(self, thing, arrays):
+        """Those of an object's slots; of the first one alone if no polygon has another."""
+        looks = thing.looks if arrays.slots is not None and len(thing.looks) > 1 else thing.looks[:1]
+        for look in looks:
+            if look is not None and look not in self.materials:
+                self.materials[look] = self.scene.add_material(look.name, look.color, look.opacity)
+        return tuple(0 if look is None else self.materials[look] for look in looks)
 
     def add_mesh(self, arrays, numbers):
         materials = None

@@ -30,13 +30,12 @@ class Gathered:
         self.matrices = np.empty((0, 16))  # to the world, row by row
         self.notes = set()  # what was not understood
         self.holdouts = set()  # names of objects that cut a hole into the picture
-        self.usages = {}  # name of an object: what it does with lines, if not the usual
 
 
 class Gatherer:
     """Goes over a dependency graph once."""
 
-    def __init__(self, depsgraph, with_marks):
+    def __init__(self, depsgraph, with_marks=True):
         self.depsgraph = depsgraph
         self.with_marks = with_marks
         self.view_layer = depsgraph.view_layer_eval
@@ -82,16 +81,13 @@ class Gatherer:
             return None
         if base.indirect_only_get(view_layer=self.view_layer) or not getattr(base, "visible_camera", True):
             return None
-        usage = self.usages.of(thing)
-        if usage == "EXCLUDE":
+        if self.usages.of(thing) == "EXCLUDE":
             return None
         mesh = self.mesh_of(thing)
         if mesh is None:
             return None
         if base.is_holdout or base.holdout_get(view_layer=self.view_layer):
             self.result.holdouts.add(thing.name)
-        if usage != "INCLUDE":
-            self.result.usages[thing.name] = usage
         materials = [slot.material for slot in thing.material_slots] or [None]
         return Placed(mesh, thing.name, tuple(self.look(m) for m in materials), thing.pass_index)
 

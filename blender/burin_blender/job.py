@@ -52,8 +52,8 @@ class Job:
         session.scene.set_style(self.sheet)
         for setting in self.settings:
             session.scene.set(setting)
-        picture = session.scene.render(self.view, layers_for(self.passes, bool(self.gathered.holdouts)), self.threads,
-                                       self.memory_bytes, memory.set_progress)
+        layers = layers_for(self.passes, bool(self.gathered.holdouts))
+        picture = session.scene.render(self.view, layers, self.threads, memory.set_progress, self.memory_bytes)
         there = set(picture.channel_names())
         for name, array in self.arrays(memory).items():
             if name.startswith("index."):

@@ -1,10 +1,8 @@
-"""Who draws lines, who only hides: what the add-on's and Line Art's settings of objects and collections say."""
-
-OWN_USAGES = {"NONE": "EXCLUDE", "OCCLUSION": "OCCLUSION_ONLY"}  # of object.burin.usage
+"""Who draws lines, who only hides: what Line Art's settings of objects and collections say."""
 
 
 class Usages:
-    """The usage of objects: their own, or Line Art's of a collection which they are in."""
+    """Line Art's usage of objects: their own, or that of a collection which they are in."""
 
     def __init__(self, scene):
         self.of_collections = {}
@@ -21,9 +19,6 @@ class Usages:
 
     def of(self, thing):
         """INCLUDE, EXCLUDE, OCCLUSION_ONLY, INTERSECTION_ONLY, NO_INTERSECTION, FORCE_INTERSECTION."""
-        own = OWN_USAGES.get(getattr(getattr(thing, "burin", None), "usage", "LINES"))
-        if own is not None:
-            return own
         settings = getattr(thing, "lineart", None)
         own = "INHERIT" if settings is None else settings.usage
         return self.of_collections.get(thing.name, "INCLUDE") if own == "INHERIT" else own
