@@ -9,7 +9,7 @@ import time
 from . import core, line_sets, properties
 from .export import Session
 from .full_picture import FullPicture
-from .live_gather import LiveGatherer, forget_changed
+from .live_gather import KeptMeshes, LiveGatherer
 from .look import Look
 from .view_fields import fields_of
 from .view_pixels import PixelMemory, ShownPicture
@@ -25,7 +25,7 @@ class LiveView:
 
     def __init__(self):
         self.session, self.look = Session(), Look()
-        self.kept, self.gathered = {}, None  # meshes that were read; all that was gathered last
+        self.kept, self.gathered = KeptMeshes(), None
         self.version = 0  # counts changes of scene and look
         self.wanted_look = None  # (lines, sheet) that was tried last, or why there is none
         self.look_error, self.error = "", ""
@@ -50,7 +50,7 @@ class LiveView:
         """Brings the session up to date with Blender: reads what is named as changed."""
         self.stop()
         self.version += 1
-        forget_changed(self.kept, depsgraph)
+        self.kept.forget_changed(depsgraph)
         self.gathered = LiveGatherer(depsgraph, context.space_data, self.kept).gather()
         self.session.apply(self.gathered)
         self.owner = (depsgraph.scene.name, depsgraph.view_layer.name)
