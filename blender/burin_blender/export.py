@@ -46,8 +46,11 @@ class Session:
         self.used = used
 
     def material_numbers(self, thing, arrays):
-        """Those of an object's slots; of the first one alone if no polygon has another."""
-        looks = thing.looks if arrays.slots is not None and len(thing.looks) > 1 else thing.looks[:1]
+        """Those of an object's slots, or one if all polygons have the same. As in Blender, a slot that is not there is
+        the last one."""
+        looks = thing.looks
+        if arrays.slots is None or len(looks) == 1:
+            looks = (looks[min(max(arrays.slot, 0), len(looks) - 1)],)
         for look in looks:
             if look is not None and look not in self.materials:
                 self.materials[look] = self.scene.add_material(look.name, look.color, look.opacity)
@@ -55,7 +58,7 @@ class Session:
 
     def add_mesh(self, arrays, numbers):
         materials = None
-        if len(numbers) > 1:  # as in Blender, slots that are not there are the last one
+        if len(numbers) > 1:
             materials = np.array(numbers, np.int32)[np.clip(arrays.slots, 0, len(numbers) - 1)]
         try:
             return self.scene.add_mesh(arrays.name, arrays.points, arrays.corners, arrays.sizes, materials, arrays.marks)

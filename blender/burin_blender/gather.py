@@ -8,9 +8,19 @@ from .line_art import Usages
 from .materials import look_of
 from .mesh_arrays import MeshArrays
 
-SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
-# What has no surface of its own and is no loss.
-OTHER_TYPES = {"EMPTY", "CAMERA", "LIGHT", "LIGHT_PROBE", "LIGHTPROBE", "ARMATURE", "LATTICE", "SPEAKER"}
+# What has no polygons of its own. Those of curves, texts and metaballs come as instances of type MESH.
+OTHER_TYPES = {"CURVE", "SURFACE", "FONT", "META", "EMPTY", "CAMERA", "LIGHT", "LIGHT_PROBE", "LIGHTPROBE", "ARMATURE",
+               "LATTICE", "SPEAKER"}
+
+
+def materials_of(thing):
+    """The materials of an evaluated object's slots, None where there is none: of its mesh, which modifiers may have
+    given others, unless a slot has one for the object alone."""
+    materials = list(thing.data.materials)
+    for i, slot in enumerate(thing.material_slots):
+        if slot.link == "OBJECT" and i < len(materials):
+            materials[i] = slot.material
+    return materials or [None]
 
 
 class Placed(NamedTuple):
@@ -50,13 +60,14 @@ class Gatherer:
     def gather(self):
         rows = []
         for instance in self.depsgraph.object_instances:
-            shown = instance.show_self if not instance.is_instance or instance.particle_system is None \
-                else instance.show_particles
-            if not shown:
+            if not instance.show_self:
                 continue
             thing = instance.object
             base = instance.parent if instance.is_instance else thing
-            key = (thing.as_pointer(), base.as_pointer())
+            # The object of an instance is a copy which lies where that of the one before did.
+            itself = instance.instance_object if instance.is_instance else thing
+            data = thing.data
+            key = (itself.as_pointer(), base.as_pointer(), 0 if data is None else data.as_pointer())
             if key not in self.known:
                 self.known[key] = self.placed(thing, base)
             placed = self.known[key]
@@ -73,7 +84,7 @@ class Gatherer:
 
     def placed(self, thing, base):
         """What all instances of an object share; None: it is not drawn."""
-        if thing.type not in SURFACE_TYPES:
+        if thing.type != "MESH":
             if thing.type not in OTHER_TYPES:
                 self.unknown.setdefault(thing.type.replace("_", " ").title(), set()).add(thing.name)
             return None
@@ -86,21 +97,22 @@ class Gatherer:
         mesh = self.mesh_of(thing)
         if mesh is None:
             return None
+        self.note_hair(thing)
         if base.is_holdout or base.holdout_get(view_layer=self.view_layer):
             self.result.holdouts.add(thing.name)
-        materials = [slot.material for slot in thing.material_slots] or [None]
-        return Placed(mesh, thing.name, tuple(self.look(m) for m in materials), thing.pass_index)
+        return Placed(mesh, thing.name, tuple(self.look(m) for m in materials_of(thing)), thing.pass_index)
+
+    def note_hair(self, thing):
+        for system in thing.particle_systems:
+            if system.settings.type == "HAIR" and system.settings.render_type == "PATH":
+                self.result.notes.add(f"object {thing.name}: hair is not drawn")
 
     def mesh_of(self, thing):
-        """The number of an object's mesh; None: it has no polygons. An evaluated mesh is that after all modifiers."""
-        is_mesh = thing.type == "MESH"
-        key = (thing.data if is_mesh else thing).as_pointer()
+        """The number of an object's mesh, which is that after all modifiers; None: it has no polygons."""
+        key = thing.data.as_pointer()
         if key not in self.mesh_numbers:
-            mesh = thing.data if is_mesh else thing.to_mesh()
-            arrays = None if mesh is None else MeshArrays(mesh, thing.name, self.with_marks)
-            if not is_mesh:
-                thing.to_mesh_clear()
-            if arrays is None or arrays.is_empty():
+            arrays = MeshArrays(thing.data, thing.name, self.with_marks)
+            if arrays.is_empty():
                 self.mesh_numbers[key] = None
             else:
                 self.mesh_numbers[key] = len(self.result.meshes)

@@ -24,6 +24,9 @@ class MeshArrays:
         if len(self.corners) == 3 * polygon_count and (self.sizes == 3).all():
             self.sizes = None
         self.slots = material_slots(mesh)
+        self.slot = 0  # of all polygons, where they have the same one
+        if self.slots is not None and (self.slots == self.slots[0]).all():
+            self.slot, self.slots = int(self.slots[0]), None
         self.marks = marked_edges(mesh) if with_marks else None
         self._key = None
 
@@ -38,7 +41,7 @@ class MeshArrays:
             for array in arrays:
                 if array is not None:
                     checksum = zlib.crc32(array, checksum)
-            self._key = (checksum, *(None if array is None else array.size for array in arrays))
+            self._key = (checksum, self.slot, *(None if array is None else array.size for array in arrays))
         return self._key
 
 
@@ -77,7 +80,7 @@ def material_slots(mesh):
     if attribute is None or attribute.domain != "FACE" or attribute.data_type != "INT":
         return None
     slots = taken(attribute.data, "value", len(mesh.polygons), np.int32)
-    return slots if slots.any() else None
+    return slots if slots.size > 0 else None
 
 
 def marked_edges(mesh):
