@@ -68,7 +68,7 @@ class BURIN_PT_lines(BurinPanel, bpy.types.Panel):
         if render.line_thickness_mode == "ABSOLUTE":
             column.prop(render, "line_thickness")
         for note in line_sets.not_drawn(context.scene, context.view_layer):
-            warning(column, "Not as in Freestyle: " + note, "INFO")
+            warning(column, note, "INFO")
 
     def draw_sheet(self, column, sheet):
         column.prop(sheet, {"NAME": "name_of_sheet", "TEXT": "text", "FILE": "path"}[sheet.source])
