@@ -2,6 +2,8 @@
 
 Blender shows them only while Freestyle itself is on, which must stay off, so each has a twin with another poll()."""
 
+import functools
+
 import bpy
 
 try:
@@ -62,9 +64,14 @@ def own_name(name):
     return OWN_PREFIX + name.removeprefix(PREFIX)
 
 
+@functools.lru_cache(maxsize=None)
 def twins():
-    """A class for each panel, in Blender's order."""
-    for panel in freestyle.classes:
+    """A class for each panel, in Blender's order; made once, since Python keeps all classes that are derived."""
+    return tuple(twins_of(freestyle.classes)) if freestyle is not None else ()
+
+
+def twins_of(classes):
+    for panel in classes:
         name = panel.__name__
         if not name.startswith(PREFIX) or name in LEFT_OUT or not issubclass(panel, bpy.types.Panel):
             continue
@@ -81,18 +88,13 @@ def twins():
         yield type(own_name(name), (*bases, bpy.types.Panel), members)
 
 
-_registered = []
-
-
 def register():
     bpy.utils.register_class(BURIN_PT_view_layer_line_sets)
-    if freestyle is not None:
-        for cls in twins():
-            bpy.utils.register_class(cls)
-            _registered.append(cls)
+    for cls in twins():
+        bpy.utils.register_class(cls)
 
 
 def unregister():
-    while _registered:
-        bpy.utils.unregister_class(_registered.pop())
+    for cls in reversed(twins()):
+        bpy.utils.unregister_class(cls)
     bpy.utils.unregister_class(BURIN_PT_view_layer_line_sets)
