@@ -54,7 +54,8 @@ def find_library(preference=""):
     if path is not None:
         return path
     here = os.path.dirname(os.path.realpath(__file__))
-    installed = sorted(glob.glob(os.path.join(here, "..", "..", "..", "..", "lib", "*", SONAME)))
+    prefix = os.path.join(here, "..", "..", "..", "..")  # of share/burin/blender/burin_blender
+    installed = sorted(glob.glob(os.path.join(prefix, "lib*", SONAME)) + glob.glob(os.path.join(prefix, "lib", "*", SONAME)))
     for path in [os.path.join(here, SONAME), os.path.join(here, "..", SONAME), *installed]:
         if os.path.isfile(path):
             return os.path.realpath(path)

@@ -303,6 +303,34 @@ def what_is_not_finite_is_named():
         raise AssertionError("a point that is no number is drawn")
 
 
+def what_cannot_be_drawn_is_an_error():
+    def alter(scene, what):
+        exec(what, {"scene": scene})
+
+    for what, message in (("scene.camera = None", "no camera"),
+                          ("scene.camera.data.type = 'PANO'", "panoramic"),
+                          ("scene.render.use_multiview = True", "Stereoscopy"),
+                          ("scene.camera.scale = (0, 1, 1)", "camera_to_world"),
+                          ("scene.camera.location.x = float('nan')", "camera_to_world")):
+        scene = new_scene()
+        add("cube", "cube")
+        alter(scene, what)
+        try:
+            render("broken")
+        except RuntimeError as error:
+            assert message in str(error), (what, error)
+        else:
+            raise AssertionError(what)
+        assert not (FOLDER / "broken.exr").exists(), what
+
+
+def an_empty_scene_is_empty():
+    scene = new_scene()
+    assert render()["ViewLayer.Combined.A"].max() == 0
+    scene.render.film_transparent = False
+    assert render()["ViewLayer.Combined.R"].min() == 1
+
+
 def write_model(thing, path):
     """An OBJ of the mesh, without its transform."""
     mesh = thing.data
@@ -352,4 +380,5 @@ main([all_kinds_have_polygons, polygons_stay_what_they_are, instances_share_a_me
       geometry_nodes_are_instances, particles_are_instances,
       visibility_is_blenders, occlusion_only_hides_and_has_no_lines, holdouts_cut_a_hole, materials_have_one_color,
       faces_have_the_material_of_their_slot, marked_edges_are_lines, modifiers_count_as_for_a_render,
-      what_is_not_finite_is_named, pictures_are_those_of_the_program])
+      what_is_not_finite_is_named, what_cannot_be_drawn_is_an_error, an_empty_scene_is_empty,
+      pictures_are_those_of_the_program])
