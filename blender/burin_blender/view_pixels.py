@@ -3,6 +3,7 @@
 import gpu
 import numpy as np
 from gpu_extras.presets import draw_texture_2d
+from mathutils import Matrix
 
 from .pixels import interleave, large_buffer
 
@@ -58,11 +59,19 @@ class ShownPicture:
             interleave([channel[y0:y1, x0:x1] for channel in channels], pixels, paper)
             self.parts.append((texture_of(pixels), left + x0, bottom + height - y1, x1 - x0, y1 - y0))
 
-    def draw(self, engine, scene):
+    def draw(self, engine, scene, region):
         """Draws it in the colours of the display."""
         gpu.state.blend_set("NONE" if self.is_opaque else "ALPHA_PREMULT")
         engine.bind_display_space_shader(scene)
-        for texture, left, bottom, width, height in self.parts:
-            draw_texture_2d(texture, (left, bottom), width, height)
+        with gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
+            # Blender's own matrices are 1/100 pixel off, which would mix neighbours.
+            gpu.matrix.load_matrix(Matrix.Identity(4))
+            gpu.matrix.load_projection_matrix(pixels_to_region(region.width, region.height))
+            for texture, left, bottom, width, height in self.parts:
+                draw_texture_2d(texture, (left, bottom), width, height)
         engine.unbind_display_space_shader()
         gpu.state.blend_set("NONE")
+
+
+def pixels_to_region(width, height):
+    return Matrix(((2 / width, 0, 0, -1), (0, 2 / height, 0, -1), (0, 0, -1, 0), (0, 0, 0, 1)))

@@ -37,7 +37,7 @@ def view_draw(engine, context, depsgraph):
         live = engine.live
         shown = live.picture(context, depsgraph)
         if shown is not None:
-            shown.draw(engine, depsgraph.scene)
+            shown.draw(engine, depsgraph.scene, context.region)
         engine.update_stats("Burin", "preview" if not live.is_final else "")
         if not live.is_final:
             wait_for(live)
