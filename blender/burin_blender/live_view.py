@@ -16,7 +16,8 @@ from .view_pixels import PixelMemory, ShownPicture
 
 PREVIEW_SAMPLES = 2
 REST_S = 0.15  # after so long without a change the full picture is made
-LOOK_S = 0.25  # how often is looked whether line sets, texts or files are other ones
+LOOK_S = 0.25  # how often is looked whether line sets, texts or files are other ones; Blender does not tell
+LOOK_SHARE = 0.05  # most of the time that this may take
 LAYERS = "beauty"
 
 
@@ -58,8 +59,7 @@ class LiveView:
 
     def update_look(self, scene, view_layer):
         """Brings settings and style sheet up to date. What is wrong with them is kept, to be shown."""
-        self.look_at = time.monotonic() + LOOK_S
-        wanted = look_of(scene, view_layer)
+        wanted = self.look_of(scene, view_layer)
         if wanted == self.wanted_look:
             return
         self.stop()
@@ -78,7 +78,7 @@ class LiveView:
     def picture(self, context, depsgraph):
         """What is to be shown now: a ShownPicture, or None where there is nothing to draw. Throws BurinError."""
         scene = depsgraph.scene
-        if time.monotonic() >= self.look_at and is_look_untold(scene):
+        if time.monotonic() >= self.look_at:
             self.update_look(scene, depsgraph.view_layer)
         if self.look_error:
             raise core.BurinError(self.look_error)
@@ -132,25 +132,27 @@ class LiveView:
             return False
         return self.full.is_done()
 
+    def look_of(self, scene, view_layer):
+        """Settings and style sheet, or why there are none."""
+        begin = time.monotonic()
+        try:
+            return properties.settings_lines(scene, view_layer), line_sets.sheet_text(scene, view_layer)
+        except core.BurinError as error:
+            return str(error)
+        finally:
+            end = time.monotonic()
+            self.look_at = end + max(LOOK_S, (end - begin) / LOOK_SHARE)
+
     def has_other_look(self, scenes):
-        """Whether something has changed that Blender does not tell about."""
+        """Whether something has changed that Blender does not tell about. Asked often, it looks now and then."""
+        if time.monotonic() < self.look_at:
+            return False
         scene = scenes.get(self.owner[0])
         view_layer = scene.view_layers.get(self.owner[1]) if scene is not None else None
-        return view_layer is not None and is_look_untold(scene) and look_of(scene, view_layer) != self.wanted_look
-
-
-def look_of(scene, view_layer):
-    """Settings and style sheet, or why there are none."""
-    try:
-        return properties.settings_lines(scene, view_layer), line_sets.sheet_text(scene, view_layer)
-    except core.BurinError as error:
-        return str(error)
-
-
-def is_look_untold(scene):
-    """Whether the look follows from line sets, texts or files, of whose changes Blender tells nothing."""
-    settings = scene.burin
-    return settings.use_line_sets or settings.sheet.source in {"TEXT", "FILE"}
+        if view_layer is None or self.look_of(scene, view_layer) == self.wanted_look:
+            return False
+        self.look_at = 0
+        return True
 
 
 def has_no_pixels(view):
