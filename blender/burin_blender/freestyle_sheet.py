@@ -57,7 +57,7 @@ class FreestyleSheet:
         return True
 
     def note(self, line_set, what):
-        self.notes.append(f"line set {line_set.name}: {what}")
+        self.notes.append(f"line set {line_set.name}, not drawn: {what}")
 
     def select(self, line_set):
         """Keeps a set with the condition of its edge types."""
@@ -214,7 +214,7 @@ def dash_pattern(line_style):
 def not_carried(style):
     """What of a line style a sheet cannot say."""
     wanted = (
-        (style.caps == "SQUARE", "square caps, which are drawn as butt caps"),
+        (style.caps == "SQUARE", "square caps (butt caps instead)"),
         (style.use_chaining and style.chaining == "SKETCHY", "sketchy chaining"),
         (style.use_angle_min or style.use_angle_max, "splitting by angle"),
         (style.use_split_length, "splitting by length"),

@@ -19,7 +19,7 @@ class FullPicture:
     def run(self):
         try:
             if not self.is_stopped:
-                self.picture = self.scene.render(*self.arguments, lambda done: self.is_stopped)
+                self.picture = self.scene.render(*self.arguments, progress=lambda done: self.is_stopped)
         except core.Stopped:
             pass
         except Exception as error:  # told by whoever asks for the picture

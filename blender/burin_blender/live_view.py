@@ -9,14 +9,15 @@ import time
 from . import core, line_sets, properties
 from .export import Session
 from .full_picture import FullPicture
-from .live_gather import LiveGatherer, forget_changed
+from .live_gather import KeptMeshes, LiveGatherer
 from .look import Look
 from .view_fields import fields_of
-from .view_pixels import ShownPicture, pixels_of
+from .view_pixels import PixelMemory, ShownPicture
 
 PREVIEW_SAMPLES = 2
 REST_S = 0.15  # after so long without a change the full picture is made
-LOOK_S = 0.25  # how often is looked whether line sets, texts or files are other ones
+LOOK_S = 0.25  # how often is looked whether line sets, texts or files are other ones; Blender does not tell
+LOOK_SHARE = 0.05  # most of the time that this may take
 LAYERS = "beauty"
 
 
@@ -25,13 +26,13 @@ class LiveView:
 
     def __init__(self):
         self.session, self.look = Session(), Look()
-        self.kept, self.gathered = {}, None  # meshes that were read; all that was gathered last
+        self.kept, self.gathered = KeptMeshes(), None
         self.version = 0  # counts changes of scene and look
         self.wanted_look = None  # (lines, sheet) that was tried last, or why there is none
         self.look_error, self.error = "", ""
         self.owner = ("", "")  # names of scene and view layer
         self.look_at = 0  # when the look is to be compared again
-        self.key, self.shown = None, None
+        self.key, self.shown, self.memory = None, None, PixelMemory()
         self.view, self.options = {}, (0, 0)  # samples of the full picture, threads
         self.full = None
         self.is_final = True  # nothing better will come
@@ -50,7 +51,7 @@ class LiveView:
         """Brings the session up to date with Blender: reads what is named as changed."""
         self.stop()
         self.version += 1
-        forget_changed(self.kept, depsgraph)
+        self.kept.forget_changed(depsgraph)
         self.gathered = LiveGatherer(depsgraph, context.space_data, self.kept).gather()
         self.session.apply(self.gathered)
         self.owner = (depsgraph.scene.name, depsgraph.view_layer.name)
@@ -58,8 +59,7 @@ class LiveView:
 
     def update_look(self, scene, view_layer):
         """Brings settings and style sheet up to date. What is wrong with them is kept, to be shown."""
-        self.look_at = time.monotonic() + LOOK_S
-        wanted = look_of(scene, view_layer)
+        wanted = self.look_of(scene, view_layer)
         if wanted == self.wanted_look:
             return
         self.stop()
@@ -78,7 +78,7 @@ class LiveView:
     def picture(self, context, depsgraph):
         """What is to be shown now: a ShownPicture, or None where there is nothing to draw. Throws BurinError."""
         scene = depsgraph.scene
-        if time.monotonic() >= self.look_at and is_look_untold(scene):
+        if time.monotonic() >= self.look_at:
             self.update_look(scene, depsgraph.view_layer)
         if self.look_error:
             raise core.BurinError(self.look_error)
@@ -119,7 +119,7 @@ class LiveView:
 
     def show(self, picture, view, paper):
         x0, _, _, y1 = view.get("crop", (0, 0, view["width"], view["height"]))
-        self.shown = ShownPicture(pixels_of(picture, paper), x0, view["height"] - y1, paper is not None)
+        self.shown = ShownPicture(picture, x0, view["height"] - y1, paper, self.memory)
 
     def advance(self):
         """Begins the full picture when the view rests. Whether the viewport should be drawn again, for it is there."""
@@ -132,25 +132,27 @@ class LiveView:
             return False
         return self.full.is_done()
 
+    def look_of(self, scene, view_layer):
+        """Settings and style sheet, or why there are none."""
+        begin = time.monotonic()
+        try:
+            return properties.settings_lines(scene, view_layer), line_sets.sheet_text(scene, view_layer)
+        except core.BurinError as error:
+            return str(error)
+        finally:
+            end = time.monotonic()
+            self.look_at = end + max(LOOK_S, (end - begin) / LOOK_SHARE)
+
     def has_other_look(self, scenes):
-        """Whether something has changed that Blender does not tell about."""
+        """Whether something has changed that Blender does not tell about. Asked often, it looks now and then."""
+        if time.monotonic() < self.look_at:
+            return False
         scene = scenes.get(self.owner[0])
         view_layer = scene.view_layers.get(self.owner[1]) if scene is not None else None
-        return view_layer is not None and is_look_untold(scene) and look_of(scene, view_layer) != self.wanted_look
-
-
-def look_of(scene, view_layer):
-    """Settings and style sheet, or why there are none."""
-    try:
-        return properties.settings_lines(scene, view_layer), line_sets.sheet_text(scene, view_layer)
-    except core.BurinError as error:
-        return str(error)
-
-
-def is_look_untold(scene):
-    """Whether the look follows from line sets, texts or files, of whose changes Blender tells nothing."""
-    settings = scene.burin
-    return settings.use_line_sets or settings.sheet.source in {"TEXT", "FILE"}
+        if view_layer is None or self.look_of(scene, view_layer) == self.wanted_look:
+            return False
+        self.look_at = 0
+        return True
 
 
 def has_no_pixels(view):

@@ -52,7 +52,7 @@ class BurinSceneSettings(bpy.types.PropertyGroup):
     line_types: EnumProperty(
         name="Line Types", items=LINE_TYPES, options={"ENUM_FLAG"},
         default={"SILHOUETTE", "BORDER", "CREASE", "INTERSECTION", "OBJECT"})
-    width: FloatProperty(name="Thickness", subtype="PIXEL", default=1.5, min=0, max=4096, soft_max=20,
+    width: FloatProperty(name="Thickness", subtype="PIXEL", default=1.5, min=0.01, max=1024, soft_max=20,
                          description="Full width of lines")
     color: color_property("Color", (0, 0, 0), "Of lines whose material has no line colour of its own")
     crease_angle: FloatProperty(
@@ -76,7 +76,7 @@ class BurinSceneSettings(bpy.types.PropertyGroup):
         name="Style", items=(("NONE", "None", "Hidden lines are not drawn"), ("SOLID", "Solid", ""),
                              ("DASHED", "Dashed", "")))
     use_hidden_width: BoolProperty(name="Own Thickness", default=False)
-    hidden_width: FloatProperty(name="Thickness", subtype="PIXEL", default=1, min=0, max=4096, soft_max=20)
+    hidden_width: FloatProperty(name="Thickness", subtype="PIXEL", default=1, min=0.01, max=1024, soft_max=20)
     hidden_color: color_property("Color", (0.215861, 0.215861, 0.215861), "Of hidden lines")
     dash: FloatProperty(name="Dash", subtype="PIXEL", default=6, min=0.1, max=65535, soft_max=50)
     gap: FloatProperty(name="Gap", subtype="PIXEL", default=4.5, min=0.1, max=65535, soft_max=50)
@@ -123,8 +123,11 @@ def samples_of(choice):
 
 
 def surface_lines(settings):
-    lines = [f"surfaces.shading={settings.shading.lower()}", f"surfaces.paper={color_list(settings.paper)}"]
-    if settings.shading in {"TOON", "GOOCH", "HATCH"}:  # the others read neither
+    """Keys that a shading does not read are errors."""
+    lines = [f"surfaces.shading={settings.shading.lower()}"]
+    if settings.shading in {"PAPER", "HATCH"}:
+        lines.append(f"surfaces.paper={color_list(settings.paper)}")
+    if settings.shading in {"TOON", "GOOCH", "HATCH"}:
         lines += [f"surfaces.normals={'smooth' if settings.use_smooth_normals else 'flat'}",
                   f"surfaces.shadows={'true' if settings.use_shadows else 'false'}"]
     return lines

@@ -190,14 +190,18 @@ def read_parameters(settings, keep):
                      **soft)
 
 
+def plain(value):
+    """A value of a parameter as Python has it."""
+    return tuple(value) if hasattr(value, "__len__") else float(value)
+
+
 def parameter_lines(settings):
     """Settings of those parameters that are not as in the sheet."""
     values = settings.values
     found = []
     for parameter in parameters(settings):
         if parameter.name in values and fits(parameter, values[parameter.name]):
-            value = values[parameter.name]
-            value = tuple(value) if parameter.is_color else value
+            value = plain(values[parameter.name])
             if value != parameter.value:
                 found.append(parameter.setting(value))
     return found

@@ -14,7 +14,7 @@ from . import core
 from .live_view import LOOK_S, LiveView
 
 ASK_S = 0.02  # how often is looked whether a full picture is there
-TEXT_SIZE, TEXT_LEFT, TEXT_TOP, LINE_HEIGHT, LONGEST_LINE = 14, 20, 80, 20, 100
+TEXT_SIZE, TEXT_LEFT, TEXT_TOP, LINE_HEIGHT, LONGEST_LINE = 14, 100, 100, 20, 90
 TEXT_COLOR = (0.9, 0.1, 0.05, 1)
 
 live_views = weakref.WeakSet()
@@ -37,7 +37,7 @@ def view_draw(engine, context, depsgraph):
         live = engine.live
         shown = live.picture(context, depsgraph)
         if shown is not None:
-            shown.draw(engine, depsgraph.scene)
+            shown.draw(engine, depsgraph.scene, context.region)
         engine.update_stats("Burin", "preview" if not live.is_final else "")
         if not live.is_final:
             wait_for(live)

@@ -35,7 +35,7 @@ def new_scene(width=160, height=90):
 def add(kind, name, **arguments):
     """Adds a mesh by an operator of bpy.ops.mesh.primitive_KIND_add."""
     getattr(bpy.ops.mesh, f"primitive_{kind}_add")(**arguments)
-    thing = bpy.context.object
+    thing = bpy.context.view_layer.objects.active
     thing.name = thing.data.name = name
     return thing
 
