@@ -23,7 +23,7 @@ using Words = std::vector<std::string>;
 /// What the value of an option may be.
 struct Values {
     Words words;
-    bool is_list = false;   ///< of words, separated by commas
+    bool is_list = false;    ///< of words, separated by commas
     std::string files = {};  ///< the line for files
 };
 
@@ -110,9 +110,9 @@ std::optional<Values> values_of_option(std::string_view command, std::string_vie
         {"--ids", {{"all", "none"}}},
         {"--find", {{"sheet", "all"}}},
         {"--layers",
-         {and_also({"beauty", "lines", "Z", "N", "ids", "coverage", "surface", "lines_hidden", "line", "motion",
-                    "crypto"},
-                   {"CryptoObject", "CryptoMaterial", "CryptoLine", "CryptoLineObject", "CryptoLineSet"}),
+         {and_also(
+              {"beauty", "lines", "Z", "N", "ids", "coverage", "surface", "lines_hidden", "line", "motion", "crypto"},
+              {"CryptoObject", "CryptoMaterial", "CryptoLine", "CryptoLineObject", "CryptoLineSet"}),
           true}},
         {"--channel-names", {{"plain", "blender"}}},
         {"--compression", {{"zip", "zips", "rle", "none"}}},
@@ -186,8 +186,8 @@ std::string completions(std::span<const CompletedCommand> commands, std::span<co
 
     const CompletedCommand* command = &commands.front();
     for (const std::string& word : before) {
-        const auto found =
-            std::find_if(commands.begin() + 1, commands.end(), [&](const CompletedCommand& c) { return c.name == word; });
+        const auto found = std::find_if(commands.begin() + 1, commands.end(),
+                                        [&](const CompletedCommand& c) { return c.name == word; });
         if (found != commands.end()) {
             command = &*found;
             break;

@@ -19,3 +19,9 @@ install(FILES ${PROJECT_BINARY_DIR}/burinConfig.cmake ${PROJECT_BINARY_DIR}/buri
 file(RELATIVE_PATH prefix_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 configure_file(cmake/burin.pc.in ${PROJECT_BINARY_DIR}/burin.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/burin.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+# Builds what is installed, and no test.
+add_custom_target(installable DEPENDS burin_program burin burin_oiio burin_draco)
+if(TARGET burin_manual)
+    add_dependencies(installable burin_manual)
+endif()

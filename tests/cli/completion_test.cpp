@@ -88,8 +88,8 @@ TEST_F(Completion, OffersWhatTheProgramTakes) {
         EXPECT_EQ(result.status, 1) << option << "=" << value << ": " << result.err;
     };
     const std::map<std::string, std::string> needed = {
-        {"--projection", "--views=front"}, {"--dashes", "-odrawing.svg"},       {"--group", "-odrawing.svg"},
-        {"--ids", "-odrawing.svg"},        {"--layers", "-opicture.exr"},       {"--channel-names", "-opicture.exr"},
+        {"--projection", "--views=front"}, {"--dashes", "-odrawing.svg"},      {"--group", "-odrawing.svg"},
+        {"--ids", "-odrawing.svg"},        {"--layers", "-opicture.exr"},      {"--channel-names", "-opicture.exr"},
         {"--find", "--style=comic"},       {"--compression", "-opicture.exr"}, {"--mask", "--method=patel"}};
     const std::set<std::string> lists = {"--lines", "--views", "--operator", "--layers"};
     int count = 0;
