@@ -1,5 +1,10 @@
 # What `cmake --install` installs: the program, the library with its headers, and what finds it: find_package(burin)
 # and pkg-config. The modules go to lib/burin, where program and library look for them.
+add_custom_target(installable DEPENDS burin_program burin burin_oiio burin_draco) # builds it, and no test
+if(TARGET burin_manual)
+    add_dependencies(installable burin_manual)
+endif()
+
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/burin)
 
@@ -19,9 +24,3 @@ install(FILES ${PROJECT_BINARY_DIR}/burinConfig.cmake ${PROJECT_BINARY_DIR}/buri
 file(RELATIVE_PATH prefix_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 configure_file(cmake/burin.pc.in ${PROJECT_BINARY_DIR}/burin.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/burin.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
-
-# Builds what is installed, and no test.
-add_custom_target(installable DEPENDS burin_program burin burin_oiio burin_draco)
-if(TARGET burin_manual)
-    add_dependencies(installable burin_manual)
-endif()
