@@ -309,6 +309,8 @@ class SceneReader {
         if (!wishes_.style.empty()) {
             source = find_sheet(wishes_.style, {});
             if (!source) throw UsageError("--style: " + no_such_sheet(wishes_.style));
+        } else if (named && named->find('\n') != std::string::npos) {
+            return read_sheet_text(*named, root_.file() + ": style", wishes_.overrides);
         } else if (named) {
             source = find_sheet(*named, folder_);
             if (!source) root_.fail("style", no_such_sheet(*named));
