@@ -39,15 +39,18 @@ class BytePacker {
         split_.resize(raw.size());
         ordered_.resize(raw.size());
         const std::size_t half = (raw.size() + 1) / 2;
-        std::uint8_t *even = split_.data(), *odd = split_.data() + half;
-        for (std::size_t i = 0; i + 1 < raw.size(); i += 2) {
-            *even++ = raw[i];
-            *odd++ = raw[i + 1];
+        std::uint8_t *const even = split_.data(), *const odd = split_.data() + half;
+        const std::uint8_t* const bytes = raw.data();
+        for (std::size_t i = 0, pairs = raw.size() / 2; i < pairs; ++i) {
+            even[i] = bytes[2 * i];
+            odd[i] = bytes[2 * i + 1];
         }
-        if (raw.size() % 2 != 0) *even = raw.back();
-        ordered_[0] = split_[0];
-        for (std::size_t i = 1; i < raw.size(); ++i)
-            ordered_[i] = static_cast<std::uint8_t>(split_[i] - split_[i - 1] + 128);
+        if (raw.size() % 2 != 0) even[half - 1] = raw.back();
+        const std::uint8_t* const from = split_.data();
+        std::uint8_t* const to = ordered_.data();
+        to[0] = from[0];
+        for (std::size_t i = 1, size = raw.size(); i < size; ++i)
+            to[i] = static_cast<std::uint8_t>(from[i] - from[i - 1] + 128);
     }
 
     Deflater deflater_;

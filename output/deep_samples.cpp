@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/murmur_hash.h"
 #include "image/half.h"
@@ -26,6 +27,14 @@ class LayeredSum {
         wanted_left_ -= share;
         return wanted_left_ < kNothing ? 1.0 : std::clamp(share / left_, 0.0, 1.0);
     }
+    /// Of the last line, which makes up for what rounding did to the others, as far as its matte bears that.
+    double alpha_of_last_line(double share) {
+        constexpr double kMost = 8e-5;
+        wanted_left_ -= share;
+        if (wanted_left_ < kNothing) return 1.0;
+        const double all = std::clamp(left_ - wanted_left_, share - kMost, share + kMost);
+        return std::clamp(all / left_, 0.0, 1.0);
+    }
     /// With it all layers up to the next one have their shares: what rounding took or added is made up for.
     double alpha_of_surface(double share) {
         wanted_left_ -= share;
@@ -40,6 +49,9 @@ class LayeredSum {
         color_ += color * left_;
         left_ *= 1.0 - alpha;
     }
+    /// For the last layer: with it the sum is `whole`, colour and alpha.
+    double last_alpha(const glm::dvec4& whole) const { return std::clamp(1.0 - (1.0 - whole.a) / left_, 0.0, 1.0); }
+    glm::dvec3 last_color(const glm::dvec4& whole) const { return glm::max((glm::dvec3(whole) - color_) / left_, 0.0); }
     bool has_any_left() const { return left_ > kNothing; }
     double left() const { return left_; }
 
@@ -77,9 +89,10 @@ class ClassShares {
 };
 
 /// As the film has it.
-glm::dvec3 as_on_film(const glm::dvec3& color) {
-    glm::dvec3 on_film;
-    for (int c = 0; c < 3; ++c)
+template <typename Vector>
+Vector as_on_film(const Vector& color) {
+    Vector on_film;
+    for (int c = 0; c < Vector::length(); ++c)
         on_film[c] = static_cast<double>(float_from_half(Film::to_half(static_cast<float>(color[c]))));
     return on_film;
 }
@@ -153,10 +166,13 @@ void DeepSampler::find_parts(const Mattes::DeepPixel& pixel) {
         const double share = left.seen_of(line);
         parts_.push_back({nullptr, &line, distance, share, color_over(line, color, covered) * share});
     }
-    std::stable_sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) {
+    const auto is_before = [](const Part& a, const Part& b) {
         if (a.distance != b.distance) return a.distance < b.distance;
         return a.line != nullptr && b.line == nullptr;
-    });
+    };
+    for (std::size_t i = 1; i < parts_.size(); ++i) {  // a few; equal ones keep their order
+        for (std::size_t k = i; k > 0 && is_before(parts_[k], parts_[k - 1]); --k) std::swap(parts_[k], parts_[k - 1]);
+    }
 }
 
 DeepSample& DeepSampler::add_sample(const Part& part, double alpha, const glm::dvec3& color) {
@@ -181,27 +197,51 @@ void DeepSampler::lay_lines_first() {
     LayeredSum lines, surfaces;
     ClassShares classes;
     glm::dvec3 color(0.0);
-    std::size_t surface_count = 0;
+    std::size_t surface_count = 0, line_count = 0;
     for (const Part& part : parts_) {
-        if (part.line != nullptr) classes.expect(part.line->line.drawn_as, part.share);
-        if (part.surface == nullptr) continue;
+        if (part.line != nullptr) {
+            ++line_count;
+            classes.expect(part.line->line.drawn_as, part.share);
+            continue;
+        }
         color += part.color;
         ++surface_count;
     }
     glm::dvec3 rest = as_on_film(color);
     for (const Part& part : parts_) {
         LayeredSum& sum = part.line != nullptr ? lines : surfaces;
-        if (!sum.has_any_left()) continue;
+        if (!sum.has_any_left()) {
+            if (part.line != nullptr) --line_count;
+            continue;
+        }
         const bool is_last = part.surface != nullptr && --surface_count == 0;
         const glm::dvec3 own_color = is_last ? rest : part.color;
         if (part.surface != nullptr) rest -= part.color;
-        const double alpha = part.line != nullptr
-                                 ? sum.alpha_of_line(classes.next(part.line->line.drawn_as, part.share))
-                                 : sum.alpha_of_surface(part.share);
+        double alpha = 0;
+        if (part.line != nullptr) {
+            const double share = classes.next(part.line->line.drawn_as, part.share);
+            alpha = --line_count == 0 ? sum.alpha_of_last_line(share) : sum.alpha_of_line(share);
+        } else {
+            alpha = sum.alpha_of_surface(part.share);
+        }
         const DeepSample& sample = add_sample(part, alpha, sum.color_for(own_color));
         if (part.line != nullptr) classes.add(part.line->line.drawn_as, static_cast<double>(sample.alpha) * sum.left());
         sum.add(static_cast<double>(sample.alpha), glm::dvec3(sample.color));
     }
+}
+
+/// The beauty on the film, which is rounded with each kind of ink that is laid over it.
+glm::dvec4 DeepSampler::beauty() const {
+    glm::dvec4 surfaces(0.0), below(0.0), above(0.0);
+    for (const Part& part : parts_) {
+        glm::dvec4& kind = part.surface != nullptr ? surfaces : part.line->line.is_below ? below : above;
+        kind += glm::dvec4(part.color, part.share);
+    }
+    if (is_mean_) return as_on_film(surfaces + below + above);
+    const double left = 1.0 - above.a;
+    glm::dvec4 film = as_on_film(surfaces);
+    if (below.a > 0 && left > kNothing) film = as_on_film(film * (1.0 - below.a / left) + below / left);
+    return as_on_film(film * left + above);
 }
 
 /// Where lines are seen through glass: all takes what it has of the beauty, one after the other.
@@ -211,15 +251,29 @@ void DeepSampler::lay_in_turns() {
     for (const Part& part : parts_) {
         if (part.line != nullptr) classes.expect(part.line->line.drawn_as, part.share);
     }
+    // What the film has by rounding alone is the first surface's.
+    const glm::dvec4 whole = beauty();
+    glm::dvec4 rounding = whole;
+    for (const Part& part : parts_)
+        rounding -= glm::dvec4(part.color, part.share) * (part.surface != nullptr ? left_ : 1.0);
     double in_front = 0;  // of surfaces
     for (const Part& part : parts_) {
-        const double share = part.share * (part.surface != nullptr ? left_ : 1.0);
-        const glm::dvec3 color = part.color * (part.surface != nullptr ? left_ : 1.0);
+        double share = part.share * (part.surface != nullptr ? left_ : 1.0);
+        glm::dvec3 color = part.color * (part.surface != nullptr ? left_ : 1.0);
+        if (part.surface != nullptr) {
+            share += rounding.a;
+            color += glm::dvec3(rounding);
+            rounding = glm::dvec4(0.0);
+        }
         double alpha = part.line != nullptr ? all.alpha_of_line(classes.next(part.line->line.drawn_as, share))
                                             : all.alpha_of_surface(share);
         glm::dvec3 own_color;
         if (all.has_any_left()) {
             own_color = all.color_for(color);
+            if (&part == &parts_.back() && part.surface != nullptr) {
+                alpha = all.last_alpha(whole);
+                own_color = all.last_color(whole);
+            }
         } else if (part.surface != nullptr) {  // lines leave nothing of it: as it would be without them
             alpha = std::min(part.share / std::max(1.0 - in_front, part.share), 1.0);
             own_color = part.color * (alpha / part.share);
@@ -261,6 +315,13 @@ void DeepSampler::add_hidden(const Mattes::DeepPixel& pixel) {
 
 std::span<const DeepSample> DeepSampler::samples_of(const Mattes::DeepPixel& pixel) {
     samples_.clear();
+    if (pixel.lines.empty() && pixel.surfaces.size() == 1) {  // mostly
+        const DeepSurface& only = pixel.surfaces.front();
+        add_sample({&only, nullptr, only.distance, 0, {}}, static_cast<double>(only.share),
+                   as_on_film(glm::dvec3(only.color)));
+        return samples_;
+    }
+    is_mean_ = pixel.is_mean;
     find_parts(pixel);
     if (has_line_behind_ || pixel.is_mean) {
         lay_in_turns();

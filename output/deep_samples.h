@@ -49,6 +49,7 @@ class DeepSampler {
         glm::dvec3 color{0.0};  // times the share
     };
     void find_parts(const Mattes::DeepPixel& pixel);
+    glm::dvec4 beauty() const;
     void lay_in_turns();
     void lay_lines_first();
     void add_hidden(const Mattes::DeepPixel& pixel);
@@ -62,6 +63,7 @@ class DeepSampler {
     std::vector<Part> parts_;  // of a pixel, nearest first
     double left_ = 1;          // of surfaces, by lines
     bool has_line_behind_ = false;
+    bool is_mean_ = false;
     std::vector<DeepSample> samples_;
     std::vector<const DeepLine*> hidden_;
 };

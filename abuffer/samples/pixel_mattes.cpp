@@ -68,15 +68,22 @@ void PixelFiller::find_deep(const SampleTile& samples, int x, int y, std::size_t
     numbers_seen_.clear();
     const SurfaceStyle& surfaces = frame_.scene->surfaces;
     const int s = samples.samples_per_pixel;
+    std::uint32_t last = SampleTile::kBackground >> 1;
+    std::size_t at = 0;  // of the last one's owner
     for (int row = 0; row < s; ++row) {
         const std::size_t first = samples.index(x * s, y * s + row);
         for (std::size_t i = first; i < first + static_cast<std::size_t>(s); ++i) {
             if (samples.ids[i] == SampleTile::kBackground) continue;
             const std::uint32_t number = samples.ids[i] >> 1;
-            const MatteOwner owner = owner_of(number);
-            auto seen =
-                std::find_if(seen_.begin(), seen_.end(), [&](const Seen& other) { return other.owner == owner; });
-            if (seen == seen_.end()) seen = seen_.insert(seen_.end(), {owner});
+            if (number != last) {
+                last = number;
+                const MatteOwner owner = owner_of(number);
+                const auto known =
+                    std::find_if(seen_.begin(), seen_.end(), [&](const Seen& other) { return other.owner == owner; });
+                at = static_cast<std::size_t>(known - seen_.begin());
+                if (at == seen_.size()) seen_.push_back({owner});
+            }
+            Seen* const seen = &seen_[at];
             ++seen->samples;
             const double nearness = frame_.surfaces.farthest_nearness + static_cast<double>(samples.nearness[i]);
             seen->distance += frame_.surfaces.projection.distance(nearness);

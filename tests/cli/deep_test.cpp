@@ -67,7 +67,10 @@ TEST(Deep, FlattensToTheBeautyByOpenExrsReader) {
         more.insert(more.end(), {"--hidden", "none", "-o", "flat.exr", "--deep", "deep.exr"});
         ASSERT_EQ(render(folder, look.front(), more).err, "");
         const Image flat = read_exr(folder.file("flat.exr")), deep = read_flattened_exr(folder.file("deep.exr"));
-        EXPECT_LE(worst_difference(deep, flat), 1.0 / 2048) << look.front() << " " << look.back();
+        // Shares of filtered lines are no exact halves: they are rounded once more.
+        const bool is_filtered = look.back().find("filter") != std::string::npos;
+        EXPECT_LE(worst_difference(deep, flat), is_filtered ? 1.0 / 1024 : 1.0 / 2048)
+            << look.front() << " " << look.back();
     }
 }
 
@@ -186,8 +189,8 @@ TEST(Deep, WhatItCannotStandBesideIsRefused) {
               std::string::npos);
     EXPECT_NE(error_of({"--deep", "d.##.exr", "-o", "d.exr", "-f", "1-3"}).find("-o: several frames need a pattern"),
               std::string::npos);
-    EXPECT_EQ(render(folder, "a.toml", {"--deep", "d.exr", "--set", "deep.hidden=\"front\""}).status, 1);
-    EXPECT_EQ(render(folder, "a.toml", {"--deep", "d.exr", "--set", "deep.float=1"}).status, 1);
+    EXPECT_EQ(render(folder, "a.toml", {"--deep", "d.exr", "--set", "deep.hidden=\"front\""}).status, 2);
+    EXPECT_EQ(render(folder, "a.toml", {"--deep", "d.exr", "--set", "deep.float=1"}).status, 2);
     EXPECT_FALSE(std::filesystem::exists(folder.file("d.exr")));
 }
 
