@@ -135,6 +135,11 @@ void SceneForFrame::make_frame_of(const burin_view& view, const OptionsInput& op
         scene_.picture.paper.size_mm.reset();
     }
     if (input.samples) scene_.abuffer.samples = input.samples;
+    if (input.frame && state_.moves) {
+        throw UsageError(
+            "view.frame: the scene moves, and the library shows it at rest in this version; `burin render -f " +
+            std::to_string(view.frame) + "` draws this frame");
+    }
     if (input.frame) scene_.frame.number = *input.frame;
     const double aspect = static_cast<double>(input.width) / input.height;
     Camera camera;
