@@ -11,7 +11,7 @@ sys.path.insert(0, os.path.dirname(__file__))
 import addon_utils
 import bpy
 
-from in_blender import FOLDER, add, main, new_scene, paint
+from in_blender import FOLDER, add, main, new_scene, paint, render
 
 import burin_blender
 from burin_blender import blender_panels, core, freestyle_panels, line_sets, panels, properties, sheets
@@ -281,6 +281,32 @@ def a_sheet_only_where_it_is_needed():
     assert len(line_sets.not_drawn(scene, view_layer)) == 2
 
 
-main((all_panels_draw, warnings_are_shown, blender_shows_its_own_panels, every_choice_is_taken_by_the_library,
+def ink(channels, letter="A"):
+    return float(next(v for n, v in channels.items() if n.endswith("Lines." + letter)).sum())
+
+
+def materials_and_objects_have_a_say():
+    """In the picture: lines of a material in its colour, none of an object that only hides, creases by object."""
+    scene = new_scene()
+    cube, other = add("cube", "cube", size=2), add("cube", "other", size=2, location=(3, 0, 0))
+    plain = ink(render())
+    red = paint(cube, "red", (1, 1, 1, 1))
+    red.burin.use_line_color, red.burin.line_color = True, (1, 0, 0)
+    colored = render()
+    assert abs(ink(colored) - plain) < 0.01 * plain
+    assert 0.4 * plain < ink(colored, "R") < 0.6 * plain and ink(colored, "G") == 0
+    other.lineart.usage = "OCCLUSION_ONLY"
+    silent = render()
+    assert abs(ink(silent) - ink(silent, "R")) < 1e-3 * plain  # red alone is left
+    other.lineart.usage = "EXCLUDE"
+    assert abs(ink(render()) - ink(silent)) > 1  # what it hid
+    other.lineart.usage = "INHERIT"
+    cube.lineart.use_crease_override, cube.lineart.crease_threshold = True, 1.5  # 86 degrees: no edge is that sharp
+    smoother = render()
+    assert ink(smoother, "R") < 0.9 * ink(colored, "R")
+    assert abs((ink(smoother) - ink(smoother, "R")) - (ink(colored) - ink(colored, "R"))) < 0.02 * plain
+
+
+main((materials_and_objects_have_a_say, all_panels_draw, warnings_are_shown, blender_shows_its_own_panels, every_choice_is_taken_by_the_library,
       presets_have_sliders, sheets_can_be_edited, wrong_sheets_are_errors, a_sheet_only_where_it_is_needed,
       comes_and_goes))
