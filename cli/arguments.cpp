@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <span>
 #include <utility>
 
 #include "base/suggestion.h"
 #include "base/version.h"
+#include "cli/completion.h"
 #include "cli/fill_arguments.h"
 #include "cli/option_texts.h"
 #include "cli/option_values.h"
@@ -196,6 +198,22 @@ void add_compare_options(CLI::App& app, Texts& t) {
     app.add_option("--progress", t.progress, "alf: print ALF_PROGRESS lines");
 }
 
+void add_view_options(CLI::App& app, Texts& t) {
+    add_input_options(app, t);
+    app.add_option("--port", t.port, "port of 127.0.0.1, 1 to 65535 (default: a free one)");
+    app.add_flag("--no-browser", t.no_browser, "print the address of the page, and open no browser");
+    app.add_option("--style", t.style, "style sheet to begin with: a name (see burin styles), or a file .toml");
+    app.add_option("--set", t.sets,
+                   "override a value of the scene, KEY=VALUE, or of the style sheet, style.PARAMETER=VALUE or "
+                   "style.STYLE.KEY=VALUE; may be repeated")
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false);
+    app.add_option("-j,--threads", t.threads, "number of threads, 0 = all cores (default)");
+    app.add_flag("-q", t.quiet, "say nothing but errors");
+    app.footer("Prints the address of the page on standard output. Only this machine, and who knows it, can look.");
+}
+
 /// What was typed, but for some options.
 std::vector<std::string> arguments_without(const CLI::App& app, const std::vector<std::string>& left_out) {
     std::vector<std::string> arguments;
@@ -257,16 +275,45 @@ std::vector<std::string> take_options_of_sbatch(std::vector<std::string>& argume
     return options;
 }
 
+CompletedCommand completed_command(const CLI::App& app) {
+    CompletedCommand command{app.get_name(), app.get_description(), {}};
+    for (const CLI::Option* option : app.get_options()) {
+        CompletedOption completed{{}, option->get_description(), option->get_items_expected_max() > 0};
+        for (const std::string& name : option->get_snames()) completed.names.push_back("-" + name);
+        for (const std::string& name : option->get_lnames()) completed.names.push_back("--" + name);
+        if (option->get_positional()) completed.names = {option->get_name()};
+        command.options.push_back(std::move(completed));
+    }
+    return command;
+}
+
+/// What `burin --complete WORD...` prints.
+std::string completions_of(const CLI::App& app, std::span<const std::string> words) {
+    std::vector<CompletedCommand> commands = {completed_command(app)};
+    commands.front().name.clear();
+    for (const CLI::App* command : app.get_subcommands({})) commands.push_back(completed_command(*command));
+    return completions(commands, words);
+}
+
+/// The help of one command, or of the program; `--help-all` has that of all commands behind it.
+void print_help(const CLI::App& app, bool of_all) {
+    const auto used = app.get_subcommands();
+    std::fputs((used.empty() ? app.help() : used.front()->help(app.get_name())).c_str(), stdout);
+    if (!of_all) return;
+    for (const CLI::App* command : app.get_subcommands({}))
+        std::printf("\n%s: %s", command->get_name().c_str(), command->help(app.get_name()).c_str());
+}
+
 /// Brings the command to the front: options may stand before it.
 void put_command_first(const CLI::App& app, std::vector<std::string>& arguments) {
     const std::string& first = arguments.front();
-    if (first == "-h" || first == "--help" || first == "--version") return;
+    if (first == "-h" || first == "--help" || first == "--help-all" || first == "--version") return;
     const auto command =
         std::find_if(arguments.begin(), arguments.end(), [&](const std::string& a) { return is_command(app, a); });
     if (command == arguments.end() || (command != arguments.begin() && first[0] != '-')) {
         throw UsageError("'" + printable(first) +
                          "' is no command; commands are render, restyle, compare, info, explain, methods, styles, "
-                         "submit and assemble");
+                         "view, submit and assemble");
     }
     std::rotate(arguments.begin(), command, command + 1);
 }
@@ -330,6 +377,8 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     add_method_option(*explain, t);
     explain->add_option("--pixel", t.pixel, "the pixel, X,Y from the upper left corner")->required();
     explain->add_flag("--json", t.json, "the strokes of the style sheet in the pixel, as JSON");
+    CLI::App* const view = app.add_subcommand("view", "look at a scene or a model in the browser");
+    add_view_options(*view, t);
     CLI::App* const list = app.add_subcommand("methods", "list the methods");
     list->add_flag("--json", t.json, "as JSON");
     CLI::App* const styles = app.add_subcommand("styles", "list the style sheets, or print one of them");
@@ -347,7 +396,13 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         "Writes DIR/truth.png, DIR/METHOD.png, DIR/METHOD_diff.png, DIR/metrics.json, DIR/metrics.csv and\n"
         "DIR/report.html, one page with tables, plots and a viewer. docs/compare.md says what is measured.\n"
         "Example: burin compare scenes/engine.toml -o comparison --size 960x540 --methods patel,gbuffer");
+    app.set_help_all_flag("--help-all", "Print the help of all commands and exit");
 
+    const std::vector<std::string> typed(argv + std::min(argc, 1), argv + argc);
+    if (!typed.empty() && typed.front() == "--complete") {
+        std::fputs(completions_of(app, std::span(typed).subspan(1)).c_str(), stdout);
+        return std::nullopt;
+    }
     std::vector<std::string> arguments = join_negative_values(argc, argv);
     if (arguments.empty()) {
         std::fputs(app.help().c_str(), stderr);
@@ -361,8 +416,10 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     try {
         app.parse(std::move(arguments));
     } catch (const CLI::CallForHelp&) {
-        const auto used = app.get_subcommands();
-        std::fputs((used.empty() ? app.help() : used.front()->help()).c_str(), stdout);
+        print_help(app, false);
+        return std::nullopt;
+    } catch (const CLI::CallForAllHelp&) {
+        print_help(app, true);
         return std::nullopt;
     } catch (const CLI::CallForVersion& version) {
         std::printf("%s\n", version.what());
@@ -381,10 +438,11 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     if (input) t.input = *input;
 
     Arguments a;
-    const std::pair<const CLI::App*, Command> commands[] = {
-        {render, Command::render},   {submit, Command::submit},   {assemble, Command::assemble},
-        {restyle, Command::restyle}, {compare, Command::compare}, {info, Command::info},
-        {explain, Command::explain}, {list, Command::methods},    {styles, Command::styles}};
+    const std::pair<const CLI::App*, Command> commands[] = {{render, Command::render},     {submit, Command::submit},
+                                                            {assemble, Command::assemble}, {restyle, Command::restyle},
+                                                            {compare, Command::compare},   {info, Command::info},
+                                                            {explain, Command::explain},   {list, Command::methods},
+                                                            {styles, Command::styles},     {view, Command::view}};
     for (const auto& [app_of, command] : commands) {
         if (*app_of) a.command = command;
     }

@@ -1,5 +1,10 @@
 # What `cmake --install` installs: the program, the library with its headers, and what finds it: find_package(burin)
 # and pkg-config. The modules go to lib/burin, where program and library look for them.
+add_custom_target(installable DEPENDS burin_program burin burin_oiio burin_draco) # builds it, and no test
+if(TARGET burin_manual)
+    add_dependencies(installable burin_manual)
+endif()
+
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/burin)
 

@@ -1,4 +1,5 @@
-// The pages on style sheets: sheets stand there in full, and commands work as they stand.
+// The pages on style sheets, and those that one reads first: sheets and scenes stand there in full, and commands work
+// as they stand.
 
 #include <gtest/gtest.h>
 
@@ -71,18 +72,24 @@ TEST(StylePages, HaveTheSheetsInFull) {
 
 TEST(StylePages, CommandsWorkAsTheyStand) {
     int count = 0;
-    for (const char* name : {"shading.md", "gallery.md"}) {
+    for (const char* name : {"shading.md", "gallery.md", "start.md", "../README.md"}) {
         const TemporaryFolder folder;
+        folder.write("mine.toml", read_file(kRoot / "docs/examples/start.toml"));
         for (const char* part : {"docs", "scenes"}) fs::create_directory_symlink(kRoot / part, folder.file(part));
         for (const Command& command : commands_in(page(name))) {
             ProgramOptions options;
             if (!command.stdout_file.empty()) options.stdout_file = folder.write(command.stdout_file, "");
+            if (command.arguments.front() == "view") continue;  // goes on until it is stopped
             const ProgramResult result = run_burin(folder.path(), command.arguments, options);
             EXPECT_EQ(result.status, 0) << name << ": " << command.arguments.back() << "\n" << result.err;
             ++count;
         }
     }
     EXPECT_GE(count, 20);
+}
+
+TEST(StylePages, StartHasItsSceneInFull) {
+    EXPECT_EQ(sheets_in(page("start.md")), std::set<std::string>{read_file(kRoot / "docs/examples/start.toml")});
 }
 
 TEST(StylePages, EverySheetIsInTheGallery) {
