@@ -134,7 +134,9 @@ class FreestyleSheet:
         pattern = dash_pattern(line_style)
         if pattern:
             entries.append(f"dash = {pattern}")
-        entries.append(f"caps = {quoted('round' if line_style.caps == 'ROUND' and not pattern else 'butt')}")
+        # Freestyle's strokes go on around corners, where Burin's lines may end: round ends close the corner. Dashes have
+        # straight ends there.
+        entries.append(f"caps = {quoted('butt' if pattern else 'round')}")
         if line_style.use_length_min:
             entries.append(f"min_length = {float(line_style.length_min)!r}")
         return entries
@@ -214,7 +216,7 @@ def dash_pattern(line_style):
 def not_carried(style):
     """What of a line style a sheet cannot say."""
     wanted = (
-        (style.caps == "SQUARE", "square caps (butt caps instead)"),
+        (style.caps == "SQUARE", "square caps (round ones instead)"),
         (style.use_chaining and style.chaining == "SKETCHY", "sketchy chaining"),
         (style.use_angle_min or style.use_angle_max, "splitting by angle"),
         (style.use_split_length, "splitting by length"),
