@@ -52,7 +52,8 @@ while len(sets):
     sets.remove(sets[0])
 line_set("outlines", {"contour"}, (.02, .03, .1), 5)
 line_set("edges", {"silhouette", "border", "crease"}, (.1, .1, .1), 1.5)
-line_set("hidden", {"silhouette", "crease"}, (.4, .1, .05), 1.5, visibility="HIDDEN", use_dashed_line=True, dash1=7, gap1=5)
+line_set("hidden", {"silhouette", "crease"}, (.4, .1, .05), 1.5, visibility="HIDDEN",
+         use_dashed_line=True, dash1=7, gap1=5)
 
 camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
 scene.collection.objects.link(camera)
