@@ -1,4 +1,4 @@
-"""Cameras of Blender as fields of burin_view. All follow from the projection matrix, so no case of sensor fit is left."""
+"""Cameras of Blender as fields of burin_view. All follow from the projection matrix: no case of sensor fit is left."""
 
 import math
 

@@ -103,7 +103,7 @@ class BurinEngine(bpy.types.RenderEngine):
         if camera_object is None:
             raise core.BurinError("the scene has no camera")
         if scene.render.use_multiview:
-            raise core.BurinError("stereoscopic pictures are not drawn; switch off Stereoscopy in the output properties")
+            raise core.BurinError("stereoscopic pictures are not drawn; switch Stereoscopy off in the output settings")
         width, height = size_of(scene.render)
         view = camera.view_of_camera(camera_object, depsgraph, width, height)
         view["crop"] = crop_of(scene.render, width, height)

@@ -7,7 +7,6 @@ import numpy as np
 from .cryptomatte import RANKS
 
 
-
 class Pass(NamedTuple):
     """A pass as Blender registers it, and the library's layers that it is made of."""
     name: str
