@@ -310,8 +310,11 @@ def what_cannot_be_drawn_is_an_error():
     for what, message in (("scene.camera = None", "no camera"),
                           ("scene.camera.data.type = 'PANO'", "panoramic"),
                           ("scene.render.use_multiview = True", "Stereoscopy"),
-                          ("scene.camera.scale = (0, 1, 1)", "camera_to_world"),
-                          ("scene.camera.location.x = float('nan')", "camera_to_world")):
+                          ("scene.camera.scale = (0, 1, 1)", "camera camera is skewed or flattened"),
+                          ("scene.camera.scale = (-1, 1, 1)", "mirrored"),
+                          ("scene.camera.location.x = float('nan')", "camera_to_world"),
+                          ("scene.camera.parent, scene.objects['cube'].scale = scene.objects['cube'], (1, 1, 3)",
+                           "camera camera is skewed or flattened")):
         scene = new_scene()
         add("cube", "cube")
         alter(scene, what)
