@@ -34,6 +34,7 @@ SceneForFrame::SceneForFrame(burin_scene& state, const burin_view& view, const O
     scene_.surfaces = settings.surfaces;
     scene_.lights = settings.lights;
     scene_.abuffer = settings.abuffer;
+    scene_.crypto = settings.crypto;
     scene_.cameras = !settings.cameras.empty() ? settings.cameras : state.file_cameras;
     scene_.camera_is_default = scene_.cameras.empty();
     if (scene_.camera_is_default) scene_.cameras.emplace_back();
