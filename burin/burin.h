@@ -32,7 +32,7 @@ extern "C" {
 
 /** The version of this interface. It counts up with every change; a library works for programs that were built with
  * the same number or a smaller one. */
-#define BURIN_ABI 5
+#define BURIN_ABI 6
 /** BURIN_ABI of the library that is loaded. */
 BURIN_API int burin_abi(void);
 /** Its version, "0.1.0". */
@@ -171,7 +171,9 @@ typedef struct burin_view {
     double ortho_height;        /**< with a matrix: visible height in world units, orthographic; 0: perspective */
     double shift[2];     /**< with a matrix: the lens is shifted, so that the picture shows what is so much farther
                               to the right and up, in heights of the picture, -100 to 100 */
-    double pixel_aspect; /**< for later; must be 1, or 0, which counts as 1 */
+    double pixel_aspect; /**< the width of a pixel / its height, as a display shows it, 0.1 to 10; 0: as the camera
+                              says, 1 with a matrix. Widths of lines are in pixels along either axis. Vector files can
+                              be made with 1 only */
 } burin_view;
 
 /** How to work. Nothing here changes a pixel. */
@@ -188,7 +190,8 @@ typedef struct burin_options {
     void* user;        /**< for `progress` */
     int32_t for_paths; /**< of burin_find_lines(), not 0: a drawing can be written as a vector file without a style
                             sheet, too: the look of the scene then counts as one, which draws the same lines, though
-                            not to the bit */
+                            not to the bit. With a style sheet: paths of an SVG say their edges, as the program's do,
+                            whatever the sheet asks for */
     int32_t find_all;  /**< of burin_find_lines(), not 0: lines are found as if a style sheet asked for all that there
                             is, so that burin_draw() takes any sheet of the same crease_angle and contours; without a
                             sheet for_paths is meant, too */
@@ -349,6 +352,10 @@ BURIN_API int burin_encode(const void* picture_or_drawing, const char* format, c
                            uint64_t* count);
 /** The same into a file, which appears under its name only when it is complete. `format` NULL: by the path's suffix. */
 BURIN_API int burin_write(const void* picture_or_drawing, const char* format, const char* style, const char* path);
+/** What the last burin_encode() or burin_write() of this thread that did not fail could not draw or say as it stands,
+ * such as colours that vary along a path: note `index`, from 0, as the program prints it; NULL behind the last one,
+ * which is no failure. Valid until the next of these calls on this thread. */
+BURIN_API const char* burin_file_note(int index);
 /** NULL is allowed. */
 BURIN_API void burin_bytes_free(uint8_t* bytes);
 

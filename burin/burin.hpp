@@ -88,6 +88,7 @@ struct View {
     double fov_deg = 0;
     double ortho_height = 0;
     std::array<double, 2> shift{};  ///< with a matrix: of the lens, to the right and up, in heights of the picture
+    double pixel_aspect = 0;        ///< a pixel's width / its height; 0: as the camera says
     int frame = 0;
 };
 
@@ -100,6 +101,13 @@ struct Options {
     std::function<bool(double)> progress{};
     bool for_paths = false, find_all = false;
 };
+
+/// What the file that this thread made last does not have as it stands; see burin_file_note().
+inline std::vector<std::string> file_notes() {
+    std::vector<std::string> notes;
+    for (int i = 0; const char* const note = burin_file_note(i); ++i) notes.emplace_back(note);
+    return notes;
+}
 
 /// The bytes of a file of a picture or a drawing.
 inline std::vector<std::byte> encoded(const void* picture_or_drawing, const std::string& format,
@@ -474,6 +482,7 @@ class Scene {
         v.fov_deg = view.fov_deg;
         v.ortho_height = view.ortho_height;
         std::copy(view.shift.begin(), view.shift.end(), v.shift);
+        v.pixel_aspect = view.pixel_aspect;
         v.frame = view.frame;
         Teller teller{options.progress, nullptr};
         burin_options o = {.size = sizeof o,

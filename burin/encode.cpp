@@ -52,28 +52,35 @@ class GivenPicture {
         }
     }
     const burin_picture& operator*() const { return *picture_; }
+    /// On the picture, if it was drawn for this.
+    std::vector<std::string> notes() const { return drawn_ ? drawn_->notes : std::vector<std::string>{}; }
 
   private:
     const burin_picture* picture_ = nullptr;
     std::unique_ptr<burin_picture> drawn_;
 };
 
-/// A drawing as the text of a vector file.
-std::string vector_text(const void* given, OutputFormat format, const char* style) {
+/// What users should know of the file that this thread made last.
+thread_local std::vector<std::string> t_notes;
+
+/// A drawing as the text of a vector file. `notes`: gets what users should know.
+std::string vector_text(const void* given, OutputFormat format, const char* style, std::vector<std::string>& notes) {
     if (given == nullptr) throw UsageError("picture_or_drawing is NULL");
     if (*static_cast<const OutputKind*>(given) != OutputKind::drawing)
         throw UsageError("format: a vector file is made of a drawing of burin_find_lines(), not of a picture");
     const auto& drawing = *static_cast<const burin_drawing*>(given);
-    std::vector<std::string> notes;  // burin_draw() has them
+    if (style == nullptr) notes = drawing.notes;
     InkedLines inked = inked_lines_of(drawing, style, drawing.threads, notes, {true, false});
     VectorOptions options;
     options.crop = drawing.frame.crop;
     VectorStats stats;
     VectorDrawing paths = vector_drawing_of(std::move(inked), *drawing.found, options, stats);
+    if (std::string means = note_on_means(stats); !means.empty()) notes.push_back(std::move(means));
     const PictureSettings& picture = drawing.scene.picture;
     paths.paper = picture.background;
     if (!paths.paper && !picture.transparent) paths.paper = glm::vec3(1.0f);
-    return vector_file_of(paths, format, {}, notes);
+    // Without chains it is not known which edges lines are of.
+    return vector_file_of(paths, format, {.names_paths = drawing.found->has_chains}, notes);
 }
 
 /// What can be written of a picture in this format.
@@ -99,8 +106,9 @@ int burin_encode(const void* picture_or_drawing, const char* format, const char*
         required(bytes, "bytes");
         required(count, "count");
         MemorySink file;
+        std::vector<std::string> notes;
         if (is_vector(as.format)) {
-            const std::string text = vector_text(picture_or_drawing, as.format, style);
+            const std::string text = vector_text(picture_or_drawing, as.format, style, notes);
             file.write(text.data(), text.size());
         } else {
             const GivenPicture given(picture_or_drawing, style);
@@ -108,12 +116,14 @@ int burin_encode(const void* picture_or_drawing, const char* format, const char*
             check_layers(from, as);
             const std::string name = "picture" + std::string(as.suffix);
             write_output(file, from.settings, from.image(), from.exr, options_of(from, as, name));
+            notes = given.notes();
         }
         auto* const copy = static_cast<uint8_t*>(std::malloc(std::max<std::size_t>(file.bytes().size(), 1)));
         if (copy == nullptr) throw std::bad_alloc();
         std::memcpy(copy, file.bytes().data(), file.bytes().size());
         *bytes = copy;
         *count = file.bytes().size();
+        t_notes.swap(notes);
         return int{BURIN_DONE};
     });
 }
@@ -122,24 +132,29 @@ int burin_write(const void* picture_or_drawing, const char* format, const char* 
     return guarded([&] {
         const std::string file_path = &required(path, "path");
         const NamedFormat& as = format == nullptr ? format_of_path(file_path) : format_named(format);
+        std::vector<std::string> notes;
         if (is_vector(as.format)) {
-            const std::string text = vector_text(picture_or_drawing, as.format, style);
+            const std::string text = vector_text(picture_or_drawing, as.format, style, notes);
             AtomicFile file(file_path);
             file.write(text.data(), text.size());
             file.commit();
-            return int{BURIN_DONE};
+        } else {
+            const GivenPicture given(picture_or_drawing, style);
+            const burin_picture& from = *given;
+            check_layers(from, as);
+            const OutputOptions options = options_of(from, as, file_path);
+            if (as.format != OutputFormat::exr)
+                check_display_writer("picture" + std::string(as.suffix));  // before there is a file
+            AtomicFile file(file_path);
+            write_output(file, from.settings, from.image(), from.exr, options);
+            file.commit();
+            notes = given.notes();
         }
-        const GivenPicture given(picture_or_drawing, style);
-        const burin_picture& from = *given;
-        check_layers(from, as);
-        const OutputOptions options = options_of(from, as, file_path);
-        if (as.format != OutputFormat::exr)
-            check_display_writer("picture" + std::string(as.suffix));  // before there is a file
-        AtomicFile file(file_path);
-        write_output(file, from.settings, from.image(), from.exr, options);
-        file.commit();
+        t_notes.swap(notes);
         return int{BURIN_DONE};
     });
 }
+
+const char* burin_file_note(int index) { return note_at(t_notes, index); }
 
 void burin_bytes_free(uint8_t* bytes) { std::free(bytes); }

@@ -235,7 +235,7 @@ int burin_move_object(burin_scene* scene, int object, const double to_world[16])
         ObjectState& state = object_of(required(scene, "scene"), object);
         const glm::dmat4 matrix = object_matrix(&required(to_world, "to_world"), "to_world");
         for (ObjectPart& part : state.parts) part.to_world = matrix;
-        ++scene->revision;
+        ++scene->placement;
         return int{BURIN_DONE};
     });
 }

@@ -23,8 +23,8 @@ SceneForFrame::SceneForFrame(burin_scene& state, const burin_view& view, const O
     scene_.lines = settings.lines;
     scene_.sheet = settings.sheet;
     scene_.line_shaders = state.line_shaders;
-    if (options.for_paths && !scene_.sheet) {
-        scene_.sheet = std::make_shared<const StyleSheet>(plain_sheet(scene_.lines));
+    if (options.for_paths) {
+        if (!scene_.sheet) scene_.sheet = std::make_shared<const StyleSheet>(plain_sheet(scene_.lines));
         scene_.names_lines = true;
     }
     if (options.finds_all) {
@@ -77,6 +77,7 @@ void SceneForFrame::take_meshes() {
                 {part.name, at->second + static_cast<std::uint32_t>(part.mesh), part.to_world, part.materials});
         }
     }
+    own_mesh_count_ = mesh_count;
     scene_.meshes.reserve(mesh_count);
     for (const auto& group : groups_) {  // nothing fails any more
         std::move(group->meshes.begin(), group->meshes.end(), std::back_inserter(scene_.meshes));
@@ -92,21 +93,33 @@ void SceneForFrame::give_meshes_back() noexcept {
         for (Mesh& own : group->meshes) own = std::move(*mesh++);
     }
     groups_.clear();
-    if (!keeps_preparation_) return;
-    state_.preparation = {state_.revision, std::move(prepared_)};
+    if (keeps_preparation_) state_.preparation.made = std::move(prepared_);
 }
 
 void SceneForFrame::prepare(const OptionsInput& options) {
+    const bool saves_memory = options.memory_bytes > 0;
     Preparation& kept = state_.preparation;
-    if (keeps_preparation_ && kept.revision == state_.revision) {
-        kept.revision = 0;
-        prepared_ = std::move(kept.made);
-        return;
-    }
-    const bool keeps_it = std::exchange(keeps_preparation_, false);  // until it is there
-    kept = {};
-    prepared_ = prepare_for_abuffer(scene_, options.threads, options.memory_bytes > 0);
-    keeps_preparation_ = keeps_it;
+    std::vector<std::size_t> replaced;
+    for (const auto& [number, mesh] : replaced_) replaced.push_back(number);
+    for (std::size_t i = own_mesh_count_; i < scene_.meshes.size(); ++i) replaced.push_back(i);
+    // Copies that are emptied are the same ones until something moves; cracks are closed for one camera.
+    const bool is_known = !saves_memory && kept.revision == state_.revision;
+    const bool is_unchanged = is_known && kept.placement == state_.placement && !closes_cracks_ && !kept.closes_cracks;
+    PreparedScene made = std::exchange(kept.made, {});
+    if (is_known) prepared_ = std::move(made);
+    std::vector<std::size_t> changed = replaced;
+    changed.insert(changed.end(), kept.replaced.begin(), kept.replaced.end());
+    std::sort(changed.begin(), changed.end());
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    kept.revision = 0;  // until it is there again
+    if (!is_unchanged)
+        kept.meshes_made += prepare_changes_for_abuffer(scene_, changed, options.threads, saves_memory, prepared_);
+    if (saves_memory) return;
+    kept.revision = state_.revision;
+    kept.placement = state_.placement;
+    kept.replaced = std::move(replaced);
+    kept.closes_cracks = closes_cracks_;
+    keeps_preparation_ = true;
 }
 
 void SceneForFrame::make_frame_of(const burin_view& view, const OptionsInput& options) {
@@ -135,7 +148,7 @@ void SceneForFrame::make_frame_of(const burin_view& view, const OptionsInput& op
     empty_copied_objects(scene_, &replaced_);
     const std::size_t replaced_for_all = replaced_.size();
     close_cracks(scene_, camera, input.width, input.height, &replaced_);
-    keeps_preparation_ = replaced_.size() == replaced_for_all && options.memory_bytes == 0;
+    closes_cracks_ = replaced_.size() != replaced_for_all;
     prepare(options);
     frame_ = make_frame(scene_, camera, input.width, input.height, input.crop, &prepared_);
 }

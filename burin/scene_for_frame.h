@@ -37,7 +37,9 @@ class SceneForFrame {
     std::vector<std::shared_ptr<MeshGroup>> groups_;  ///< whose meshes the scene has, one after the other
     ReplacedMeshes replaced_;
     PreparedScene prepared_;
-    bool keeps_preparation_ = false;  ///< what was prepared is right for later views, too
+    std::size_t own_mesh_count_ = 0;  ///< meshes that the burin_scene has, too
+    bool closes_cracks_ = false;      ///< for this view
+    bool keeps_preparation_ = false;  ///< what was prepared is for later views, too
     Frame frame_;
 };
 

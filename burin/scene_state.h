@@ -36,8 +36,12 @@ struct ObjectPart {
 
 /// What is made of a scene's meshes once for all views of it, see prepare_for_abuffer().
 struct Preparation {
-    std::uint64_t revision = 0;  ///< of the scene that it was made for; 0: there is none
+    std::uint64_t revision = 0;         ///< of the scene that it was made for; 0: there is none
+    std::uint64_t placement = 0;        ///< of the same
+    std::vector<std::size_t> replaced;  ///< meshes that were others for that frame than they are in the scene
+    bool closes_cracks = false;         ///< which ones, depends on the view
     PreparedScene made;
+    std::uint64_t meshes_made = 0;  ///< how many meshes it was made for so far, one as often as it was
 };
 
 struct ObjectState {
@@ -61,7 +65,8 @@ struct burin_scene {
     std::string explanation;  ///< the last one of burin_explain()
     /// Of the program, by name; drawings share it, so that it is replaced and not changed.
     std::shared_ptr<const burin::LineShaders> line_shaders = std::make_shared<const burin::LineShaders>();
-    std::uint64_t revision = 1;  ///< counts changes of objects, materials and settings
+    std::uint64_t revision = 1;   ///< counts changes of objects, materials and settings
+    std::uint64_t placement = 1;  ///< counts moves of objects
     burin::Preparation preparation;
     burin::StopFlag stop{false};
 };

@@ -96,8 +96,8 @@ CameraSettings camera_of_scene(const burin_view& view, const std::vector<CameraS
 
 ViewInput checked_view(const burin_view& view, const PictureSettings& picture,
                        const std::vector<CameraSettings>& cameras) {
-    if (!(view.pixel_aspect == 0 || view.pixel_aspect == 1)) {
-        throw UsageError("view.pixel_aspect: not in this version; must be 1");
+    if (view.pixel_aspect != 0 && !(view.pixel_aspect >= kLeastPixelAspect && view.pixel_aspect <= kMostPixelAspect)) {
+        throw UsageError("view.pixel_aspect: must be from 0.1 to 10, or 0, got " + number_text(view.pixel_aspect));
     }
     if (view.frame > kLastFrame || view.frame < -kLastFrame) {
         throw UsageError("view.frame: must be from -1000000000 to 1000000000, got " + std::to_string(view.frame));
@@ -119,6 +119,7 @@ ViewInput checked_view(const burin_view& view, const PictureSettings& picture,
     const bool has_matrix = !is_unset(view.camera_to_world);
     if (has_matrix && view.camera != nullptr) throw UsageError("view.camera: cannot stand beside camera_to_world");
     input.camera = has_matrix ? camera_of_matrix(view) : camera_of_scene(view, cameras);
+    if (view.pixel_aspect != 0) input.camera.pixel_aspect = view.pixel_aspect;
     return input;
 }
 

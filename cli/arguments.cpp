@@ -198,6 +198,22 @@ void add_compare_options(CLI::App& app, Texts& t) {
     app.add_option("--progress", t.progress, "alf: print ALF_PROGRESS lines");
 }
 
+void add_view_options(CLI::App& app, Texts& t) {
+    add_input_options(app, t);
+    app.add_option("--port", t.port, "port of 127.0.0.1, 1 to 65535 (default: a free one)");
+    app.add_flag("--no-browser", t.no_browser, "print the address of the page, and open no browser");
+    app.add_option("--style", t.style, "style sheet to begin with: a name (see burin styles), or a file .toml");
+    app.add_option("--set", t.sets,
+                   "override a value of the scene, KEY=VALUE, or of the style sheet, style.PARAMETER=VALUE or "
+                   "style.STYLE.KEY=VALUE; may be repeated")
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false);
+    app.add_option("-j,--threads", t.threads, "number of threads, 0 = all cores (default)");
+    app.add_flag("-q", t.quiet, "say nothing but errors");
+    app.footer("Prints the address of the page on standard output. Only this machine, and who knows it, can look.");
+}
+
 /// What was typed, but for some options.
 std::vector<std::string> arguments_without(const CLI::App& app, const std::vector<std::string>& left_out) {
     std::vector<std::string> arguments;
@@ -297,7 +313,7 @@ void put_command_first(const CLI::App& app, std::vector<std::string>& arguments)
     if (command == arguments.end() || (command != arguments.begin() && first[0] != '-')) {
         throw UsageError("'" + printable(first) +
                          "' is no command; commands are render, restyle, compare, info, explain, methods, styles, "
-                         "submit and assemble");
+                         "view, submit and assemble");
     }
     std::rotate(arguments.begin(), command, command + 1);
 }
@@ -361,6 +377,8 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     add_method_option(*explain, t);
     explain->add_option("--pixel", t.pixel, "the pixel, X,Y from the upper left corner")->required();
     explain->add_flag("--json", t.json, "the strokes of the style sheet in the pixel, as JSON");
+    CLI::App* const view = app.add_subcommand("view", "look at a scene or a model in the browser");
+    add_view_options(*view, t);
     CLI::App* const list = app.add_subcommand("methods", "list the methods");
     list->add_flag("--json", t.json, "as JSON");
     CLI::App* const styles = app.add_subcommand("styles", "list the style sheets, or print one of them");
@@ -420,10 +438,11 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     if (input) t.input = *input;
 
     Arguments a;
-    const std::pair<const CLI::App*, Command> commands[] = {
-        {render, Command::render},   {submit, Command::submit},   {assemble, Command::assemble},
-        {restyle, Command::restyle}, {compare, Command::compare}, {info, Command::info},
-        {explain, Command::explain}, {list, Command::methods},    {styles, Command::styles}};
+    const std::pair<const CLI::App*, Command> commands[] = {{render, Command::render},     {submit, Command::submit},
+                                                            {assemble, Command::assemble}, {restyle, Command::restyle},
+                                                            {compare, Command::compare},   {info, Command::info},
+                                                            {explain, Command::explain},   {list, Command::methods},
+                                                            {styles, Command::styles},     {view, Command::view}};
     for (const auto& [app_of, command] : commands) {
         if (*app_of) a.command = command;
     }

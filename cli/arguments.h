@@ -17,7 +17,7 @@
 
 namespace burin {
 
-enum class Command : std::uint8_t { render, info, explain, methods, compare, styles, restyle, assemble, submit };
+enum class Command : std::uint8_t { render, info, explain, methods, compare, styles, restyle, assemble, submit, view };
 
 /// Arguments is what stands on the command line, checked as far as that is possible without the scene.
 /// Everything optional overrides the scene when it is given.
@@ -97,6 +97,8 @@ struct Arguments {
     bool verbose = false;
     bool quiet = false;
     bool alf_progress = false;
+    std::uint16_t port = 0;  ///< view: 0 = a free one
+    bool opens_browser = true;
 };
 
 /// Reads the command line. Throws UsageError. For --help and --version it prints and returns nothing.

@@ -14,5 +14,6 @@ void run_restyle(const Arguments& arguments);
 void run_compare(const Arguments& arguments);
 void run_assemble(const Arguments& arguments);
 void run_submit(const Arguments& arguments);
+void run_view(const Arguments& arguments);
 
 }  // namespace burin

@@ -19,6 +19,26 @@ void fill_input_options(const Texts& t, Arguments& a) {
         a.model_budget = ModelBudget(byte_count("--memory-model", t.model_memory), "--memory-model");
 }
 
+void fill_overrides(const Texts& t, Arguments& a) {
+    for (const std::string& set : t.sets) {
+        const std::size_t equals = set.find('=');
+        if (equals == std::string::npos || equals == 0) {
+            fail("--set", "must be KEY=VALUE, got '" + printable(set) + "'");
+        }
+        a.overrides.push_back({set.substr(0, equals), set.substr(equals + 1)});
+    }
+}
+
+void fill_view_options(const Texts& t, Arguments& a) {
+    fill_input_options(t, a);
+    fill_overrides(t, a);
+    a.style = t.style;
+    if (!t.port.empty()) a.port = static_cast<std::uint16_t>(integer("--port", t.port, 1, 65535));
+    a.opens_browser = !t.no_browser;
+    if (!t.threads.empty()) a.threads = integer("--threads", t.threads, 0, 1024);
+    a.quiet = t.quiet;
+}
+
 void fill_scene_options(const Texts& t, Arguments& a) {
     fill_input_options(t, a);
     if (!t.size.empty()) {
@@ -93,13 +113,7 @@ void fill_scene_options(const Texts& t, Arguments& a) {
     a.line_color = t.color;
     a.style = t.style;
     if (!t.frame.empty()) a.frame = integer("--frame", t.frame, -1000000000, 1000000000);
-    for (const std::string& set : t.sets) {
-        const std::size_t equals = set.find('=');
-        if (equals == std::string::npos || equals == 0) {
-            fail("--set", "must be KEY=VALUE, got '" + printable(set) + "'");
-        }
-        a.overrides.push_back({set.substr(0, equals), set.substr(equals + 1)});
-    }
+    fill_overrides(t, a);
     if (!t.threads.empty()) a.threads = integer("--threads", t.threads, 0, 1024);
     a.verbose = t.verbose > 0;
     a.quiet = t.quiet;
@@ -155,6 +169,8 @@ void fill_arguments(const Texts& t, Arguments& a) {
             a.bands = t.farm.band_files;
             a.quiet = t.quiet;
             return;
+        case Command::view:
+            return fill_view_options(t, a);
         case Command::render:
         case Command::restyle:
         case Command::compare:

@@ -72,6 +72,8 @@ void run(const burin::Arguments& arguments) {
             return run_assemble(arguments);
         case burin::Command::submit:
             return run_submit(arguments);
+        case burin::Command::view:
+            return run_view(arguments);
     }
 }
 

@@ -23,9 +23,10 @@ struct Texts {
     ExrTexts exr;
     FarmTexts farm;
     std::string repeat, progress, pixel, background, methods, compare_frames;
+    std::string port;
     std::vector<std::string> sets;
     int verbose = 0;
-    bool quiet = false, json = false, strict = false, save_surface = false;
+    bool quiet = false, json = false, strict = false, save_surface = false, no_browser = false;
 };
 
 }  // namespace burin

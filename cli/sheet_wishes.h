@@ -17,7 +17,4 @@ std::shared_ptr<const StyleSheet> sheet_as_wished(StyleSheet sheet, const Argume
 /// The sheet with hidden lines at any depth, where it has those right behind a face: workshop drawings have all.
 StyleSheet with_all_hidden_lines(StyleSheet sheet);
 
-/// The value of a parameter as it is shown and typed: "1.6", "0.35mm", "#101010".
-std::string text_of_parameter(const SheetParameter& parameter);
-
 }  // namespace burin

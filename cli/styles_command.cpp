@@ -6,8 +6,8 @@
 #include "base/error.h"
 #include "base/json_writer.h"
 #include "cli/commands.h"
-#include "cli/sheet_wishes.h"
 #include "mesh/text_scan.h"
+#include "scene/parameter_text.h"
 #include "scene/sheet_library.h"
 
 namespace burin {

@@ -23,10 +23,7 @@ VectorDrawing draw_paths(const FoundLines& lines, const Frame& frame, const Argu
     options.crop = frame.crop;
     options.progress = progress;
     VectorDrawing drawing = vector_drawing_of(std::move(inked), lines, options, stats);
-    if (stats.mean_inks > 0) {
-        notes.push_back("a path has one colour and opacity: " + std::to_string(stats.mean_inks) +
-                        " strokes that vary in them have their means");
-    }
+    if (std::string means = note_on_means(stats); !means.empty()) notes.push_back(std::move(means));
     return drawing;
 }
 

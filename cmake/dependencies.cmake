@@ -11,6 +11,7 @@ find_package(nlohmann_json CONFIG REQUIRED)
 find_package(meshoptimizer CONFIG REQUIRED)
 find_package(draco CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
+find_package(Boost 1.74 REQUIRED)  # headers alone
 find_package(embree 3 CONFIG REQUIRED)
 
 # OpenImageIO's targets list a folder of OpenCV that exists only where libopencv-dev is installed.

@@ -24,3 +24,7 @@ install(FILES ${PROJECT_BINARY_DIR}/burinConfig.cmake ${PROJECT_BINARY_DIR}/buri
 file(RELATIVE_PATH prefix_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 configure_file(cmake/burin.pc.in ${PROJECT_BINARY_DIR}/burin.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/burin.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+# The add-on for Blender; docs/blender.md says how Blender finds it.
+install(DIRECTORY blender/burin_blender DESTINATION ${CMAKE_INSTALL_DATADIR}/burin/blender
+    PATTERN __pycache__ EXCLUDE)

@@ -16,6 +16,8 @@ class ScratchFolder {
     ScratchFolder(const ScratchFolder&) = delete;
     ScratchFolder& operator=(const ScratchFolder&) = delete;
 
+    const std::string& path() const { return path_; }
+
     /// Writes a file of the folder, and returns its path.
     std::string write(std::string_view name, std::span<const std::uint8_t> bytes) const;
     std::string write(std::string_view name, std::string_view text) const;

@@ -88,8 +88,9 @@ class ChunkFile {
             int part = 0;
             const char* const name = options.parts.empty() ? nullptr : options.parts[p].name.c_str();
             check(exr_add_part(context_, name, EXR_STORAGE_SCANLINE, &part));
-            check(exr_initialize_required_attr(context_, part, &display, &data, 1, &center, options.screen_window_width,
-                                               EXR_LINEORDER_INCREASING_Y, exr_compression(options.compression)));
+            check(exr_initialize_required_attr(context_, part, &display, &data, options.pixel_aspect, &center,
+                                               options.screen_window_width, EXR_LINEORDER_INCREASING_Y,
+                                               exr_compression(options.compression)));
             for (const std::size_t c : orders[p]) {
                 const ChannelFormat& channel = channels[c];
                 check(exr_add_channel(context_, part, channel.name.c_str(), exr_type(channel.type),

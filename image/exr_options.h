@@ -46,6 +46,7 @@ struct ExrOptions {
     /// Of every part. No date is among them: equal images give equal files.
     std::vector<ExrAttribute> attributes = {};
     ExrCompression compression = ExrCompression::zip;
+    float pixel_aspect = 1;  ///< a pixel's width / its height
     /// The width of the display window at distance 1, and its middle, as cameras have it.
     float screen_window_width = 1;
     std::array<float, 2> screen_window_center = {0, 0};

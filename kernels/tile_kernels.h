@@ -51,7 +51,7 @@ struct StrokeView {
 struct ScreenTransform {
     double to_view[4][3];  ///< columns
     bool orthographic;
-    double focal_px, center_x, center_y, near_distance, guard_band_px, farthest_nearness;
+    double focal_px, x_scale, center_x, center_y, near_distance, guard_band_px, farthest_nearness;
     double view_to_world[3][3];  ///< columns
 };
 
@@ -68,7 +68,7 @@ struct TriangleGeometry {
 /// projection.
 struct RowRays {
     bool orthographic;
-    double first_x_px, y_px, focal_px;
+    double first_x_px, y_px, focal_x_px, focal_y_px;
 };
 
 /// Depth, normals and ids of pixels side by side, each with room for a multiple of four of them.

@@ -163,6 +163,24 @@ class FeatureRuns {
     std::vector<Placed> placed_;
 };
 
+/// Whether a run goes the wrong way round. Contours run with the surface that ends there on their left; where no
+/// surface does, loops run clockwise, and all others to the right and down. A line that grows from one picture to the
+/// next so keeps its direction, and with it the side that strokes waver to.
+bool runs_backwards(std::span<const RunPiece> pieces, bool is_closed) {
+    double on_left = 0, area = 0;
+    const glm::dvec2 begin = pieces.front().piece.from;
+    for (const RunPiece& p : pieces) {
+        const LinePiece& piece = p.piece;
+        const glm::dvec2 a = piece.from - begin, b = piece.to - begin;
+        if (piece.occludes) on_left += (piece.front_on_left ? 1 : -1) * glm::distance(a, b);
+        area += a.x * b.y - a.y * b.x;
+    }
+    if (on_left != 0) return on_left < 0;
+    if (is_closed) return area < 0;
+    const glm::dvec2 way = pieces.back().piece.to - begin;
+    return way.x + 0.5 * way.y < 0;
+}
+
 /// Adds the runs of lines that stand along themselves.
 void add_others(std::vector<const LinePiece*> pieces, bool is_hidden, const PieceLinking& linking, LineRuns& runs) {
     const PieceChains chains(std::move(pieces), linking);
@@ -171,12 +189,20 @@ void add_others(std::vector<const LinePiece*> pieces, bool is_hidden, const Piec
         run.first = runs.pieces.size();
         run.count = chain.ends.size();
         run.is_hidden = is_hidden;
-        double at = 0;
         for (const std::uint32_t end : chain.ends) {
-            RunPiece piece{chains.piece(end), at, at + chains.length(end)};
+            RunPiece piece{chains.piece(end), 0, chains.length(end)};
             if (!EndLinks::is_beginning(end)) turn(piece.piece);
-            at = piece.at_to_px;
             runs.pieces.push_back(piece);
+        }
+        const std::span<RunPiece> own = std::span(runs.pieces).subspan(run.first);
+        if (runs_backwards(own, chain.is_closed)) {
+            std::reverse(own.begin(), own.end());
+            for (RunPiece& piece : own) turn(piece.piece);
+        }
+        double at = 0;
+        for (RunPiece& piece : own) {
+            piece.at_from_px = at;
+            piece.at_to_px = at += piece.at_to_px;
         }
         run.is_closed = chain.is_closed ||
                         glm::distance(runs.pieces[run.first].piece.from, runs.pieces.back().piece.to) < kClosedPx;

@@ -24,6 +24,9 @@ enum class RunEnd : std::uint8_t {
     frame,     ///< the border of the picture
 };
 
+/// Nothing that is farther from the end of a run is looked for.
+constexpr float kFarthestGapPx = 16;
+
 /// A piece of a run, which runs as the run does, and where its ends stand along the chain.
 struct RunPiece {
     LinePiece piece;
@@ -36,12 +39,24 @@ struct LineRun {
     bool is_hidden = false;
     bool is_closed = false;  ///< it is a loop: its last piece ends where its first one begins
     std::array<RunEnd, 2> ends{RunEnd::free, RunEnd::free};
+    /// How far what may stop the run is from either end: 0 where it is stopped, at most kFarthestGapPx.
+    std::array<float, 2> gaps_px{kFarthestGapPx, kFarthestGapPx};
+    /// The same of what hides the run or goes on straight ahead, as the other half of a line that breaks: lines that
+    /// cross it or turn away by more than 30 degrees do not count.
+    std::array<float, 2> onward_gaps_px{kFarthestGapPx, kFarthestGapPx};
     double chain_length_px = 0;
     bool chain_is_closed = false;
     /// A hash of the place in the mesh where its chain begins, which does not depend on the view; 0 for contours and
     /// intersections.
     std::uint64_t chain_place = 0;
 };
+
+/// How much of what free ends have an end has that is so far from what may stop it: all of it where nothing is near,
+/// and little where a line breaks by a hair, so that nothing jumps when it does.
+inline double freedom(float gap_px) {
+    const double share = static_cast<double>(gap_px / kFarthestGapPx);
+    return share * share * (3 - 2 * share);
+}
 
 /// The lines of a picture as runs. Their order depends on nothing but the lines.
 struct LineRuns {

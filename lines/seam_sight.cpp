@@ -29,7 +29,7 @@ std::optional<BorderIndex::Sight> sight_through(const SurfaceSet& surfaces, std:
     const glm::dvec3 ray = back * (p.orthographic ? glm::dvec3(0, 0, -1) : seen);
     BorderIndex::Sight sight;
     sight.direction = ray / glm::length(ray);
-    const double per_distance = kAroundPx * most_lengthened(back) / p.focal_px;
+    const double per_distance = kAroundPx * most_lengthened(back) * std::max(p.pixel_aspect, 1.0) / p.focal_px;
     sight.radius = p.orthographic ? per_distance : per_distance * distance;
     sight.growth = p.orthographic ? 0.0 : per_distance * std::abs((turn * sight.direction).z);
     const bool is_known =

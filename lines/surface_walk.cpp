@@ -18,12 +18,11 @@ namespace {
 /// decides its normal, and it says nothing about the surface.
 constexpr double kSliverHeightPx = 1.0 / 64;
 
-/// A screen position (x, y) as (x w, y w, w); w is the distance from the eye, or 1 in an orthographic view. It is
-/// linear in view space, also behind the eye. Corners are snapped as the rasterizer snaps them, but not those of
-/// triangles that are cut: what snapping moves grows beyond a corner on the way to one behind the eye.
+/// Projection::homogeneous(). Corners are snapped as the rasterizer snaps them, but not those of triangles that are
+/// cut: what snapping moves grows beyond a corner on the way to one behind the eye.
 glm::dvec3 homogeneous(const Projection& p, const glm::dvec3& view, bool is_snapped) {
+    if (!is_snapped) return p.homogeneous(view);
     const double w = p.orthographic ? 1.0 : -view.z;
-    if (!is_snapped) return {p.center_px.x * w + p.focal_px * view.x, p.center_px.y * w - p.focal_px * view.y, w};
     const glm::dvec2 pixel = p.to_pixel(view);
     return glm::dvec3(to_pixels(snap_to_subpixels(pixel.x)), to_pixels(snap_to_subpixels(pixel.y)), 1.0) * w;
 }

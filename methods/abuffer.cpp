@@ -41,8 +41,8 @@ PreparedScene prepare_for_abuffer(const Scene& scene, int threads, bool saves_me
     return prepared;
 }
 
-void prepare_changes_for_abuffer(const Scene& scene, const std::vector<std::size_t>& changed_meshes, int threads,
-                                 bool saves_memory, PreparedScene& prepared) {
+std::size_t prepare_changes_for_abuffer(const Scene& scene, const std::vector<std::size_t>& changed_meshes, int threads,
+                                        bool saves_memory, PreparedScene& prepared) {
     const LineCriteria criteria = fading_criteria_of(scene.lines);
     std::vector<std::size_t> meshes;
     for (const std::size_t i : changed_meshes) {
@@ -56,10 +56,12 @@ void prepare_changes_for_abuffer(const Scene& scene, const std::vector<std::size
     parallel_for(meshes.size(), has_many ? threads : 1, [&](std::size_t i, int) {
         prepared.sharp_edges[meshes[i]] = find_sharp_edges(scene.meshes[meshes[i]], criteria, has_many ? 1 : threads);
     });
+    prepared.intersecting_pairs.reset();
     const bool behind = draws_hidden_lines(scene) || has_transparent_surfaces(scene);
     if (!saves_memory && behind && IntersectionLines::are_wanted(scene.lines.classes)) {
         prepared.intersecting_pairs = find_intersecting_pairs(scene, best_kernels(), threads);
     }
+    return meshes.size();
 }
 
 /// Bands are not finished early where there are hidden lines, for these are drawn below visible ones.

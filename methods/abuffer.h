@@ -49,8 +49,9 @@ bool abuffer_finishes_in_bands(const Frame& frame);
 PreparedScene prepare_for_abuffer(const Scene& scene, int threads, bool saves_memory = false);
 
 /// The same for a scene that something was made for before: objects may have moved since, and meshes of these numbers
-/// are others. There may be more or fewer meshes behind the others; these count as changed.
-void prepare_changes_for_abuffer(const Scene& scene, const std::vector<std::size_t>& changed_meshes, int threads,
-                                 bool saves_memory, PreparedScene& prepared);
+/// are others. There may be more or fewer meshes behind the others; these count as changed. Returns for how many meshes
+/// something was made.
+std::size_t prepare_changes_for_abuffer(const Scene& scene, const std::vector<std::size_t>& changed_meshes, int threads,
+                                        bool saves_memory, PreparedScene& prepared);
 
 }  // namespace burin

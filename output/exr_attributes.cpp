@@ -30,9 +30,10 @@ std::string text_of(const glm::dvec3& v) {
 }
 
 /// The camera as a scene file has it, of the whole picture.
-std::string text_of(const Camera& camera, double height) {
+std::string text_of(const Camera& camera, double height, double pixel_aspect) {
     const glm::dvec3 eye = camera.eye(), up(camera.to_world[1]), back(camera.to_world[2]);
     std::string text = "eye = " + text_of(eye) + ", target = " + text_of(eye - back) + ", up = " + text_of(up);
+    if (pixel_aspect != 1) text += ", pixel_aspect = " + text_of(pixel_aspect);
     if (camera.orthographic) return "projection = \"orthographic\", " + text + ", height = " + text_of(height);
     return "projection = \"perspective\", " + text + ", fov = " + text_of(glm::degrees(2 * std::atan(height / 2)));
 }
@@ -47,7 +48,7 @@ ExrMatrix for_row_vectors(const glm::dmat4& m) {
 /// Camera space, left-handed, to 0..1 over the display window, y down.
 glm::dmat4 camera_to_ndc(const Projection& p, double width, double height) {
     glm::dmat4 m(0.0);
-    m[0][0] = p.focal_px / width;
+    m[0][0] = p.focal_xy_px().x / width;
     m[1][1] = -p.focal_px / height;
     glm::dvec4& middle = p.orthographic ? m[3] : m[2];
     middle.x = p.center_px.x / width;
@@ -83,10 +84,12 @@ ExrOptions exr_options_of(const Frame& frame, std::optional<int> image_counter, 
     if (!has_camera) return exr;
     const Camera& camera = frame.camera;
     const Projection& p = frame.surfaces.projection;
-    exr.attributes.push_back({"burin/camera", text_of(camera, frame.height / p.focal_px)});
+    exr.attributes.push_back({"burin/camera", text_of(camera, frame.height / p.focal_px, p.pixel_aspect)});
     const double width = frame.width, height = frame.height;
-    exr.screen_window_width = static_cast<float>(width / p.focal_px);
-    const glm::dvec2 middle = (glm::dvec2(width, height) * 0.5 - p.center_px) / p.focal_px;
+    const glm::dvec2 focal = p.focal_xy_px();
+    exr.pixel_aspect = static_cast<float>(p.pixel_aspect);
+    exr.screen_window_width = static_cast<float>(width / focal.x);
+    const glm::dvec2 middle = (glm::dvec2(width, height) * 0.5 - p.center_px) / focal;
     exr.screen_window_center = {static_cast<float>(middle.x), static_cast<float>(0 - middle.y)};
     glm::dmat4 to_left_handed(1.0);
     to_left_handed[2].z = -1;

@@ -149,6 +149,10 @@ void add_chains(const FoundLines& lines, ArrayWriter& out) {
     out.add<std::uint64_t>("chain_key", runs.size(), 1,
                            [&](std::size_t i, std::uint64_t* v) { v[0] = runs[i].chain_place; });
     out.add<double>("chain_length", runs.size(), 1, [&](std::size_t i, double* v) { v[0] = runs[i].chain_length_px; });
+    out.add<float>("chain_gaps", runs.size(), 4, [&](std::size_t i, float* v) {
+        const LineRun& r = runs[i];
+        v[0] = r.gaps_px[0], v[1] = r.gaps_px[1], v[2] = r.onward_gaps_px[0], v[3] = r.onward_gaps_px[1];
+    });
     out.add<std::uint8_t>("chain_flags", runs.size(), 1, [&](std::size_t i, std::uint8_t* v) {
         const LineRun& r = runs[i];
         v[0] = static_cast<std::uint8_t>(
@@ -209,6 +213,8 @@ std::map<std::string, std::string> metadata_of(const FoundLines& lines, const Ke
     const auto number = [](double value) { return nlohmann::json(value).dump(); };
     data["fps"] = number(lines.fps);
     data["dpi"] = number(lines.dpi);
+    const double pixel_aspect = lines.projection.pixel_aspect;
+    if (pixel_aspect != 1) data["pixel_aspect"] = nlohmann::json(pixel_aspect).dump();
     if (lines.paper_mm.x > 0) data["paper_mm"] = nlohmann::json{lines.paper_mm.x, lines.paper_mm.y}.dump();
     data["crease_angle"] = nlohmann::json{lines.crease_angle_deg[0], lines.crease_angle_deg[1]}.dump();
     if (const auto& light = lines.scene_light) {

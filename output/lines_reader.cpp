@@ -195,6 +195,11 @@ void read_picture(const ArrayReader& in, const MetadataReader& data, FoundLines&
     in.take<double>("projection", 5, 1, [&](std::size_t i, const double* v) { projection[i] = v[0]; });
     if (!(projection[1] > 0)) in.fail("projection: the focal length must be greater than 0");
     lines.projection = {projection[0] != 0, projection[1], {projection[2], projection[3]}, projection[4]};
+    if (data.has("pixel_aspect")) {
+        const double aspect = data.number("pixel_aspect");
+        if (!(aspect > 0 && std::isfinite(1 / aspect))) in.fail("__metadata__.pixel_aspect: must be greater than 0");
+        lines.projection.set_pixel_aspect(aspect);
+    }
     lines.materials = data.names("materials");
     for (std::string& name : data.names("objects")) lines.objects.push_back({std::move(name), 0, glm::dmat4(1.0), 1});
     in.take<double>("object_from_view", lines.objects.size(), 17, [&](std::size_t i, const double* v) {
@@ -338,6 +343,12 @@ void read_chains(const ArrayReader& in, FoundLines& lines) {
     in.take<double>("chain_length", runs.size(), 1, [&](std::size_t i, const double* v) {
         if (v[0] < 0) in.fail_at("chain_length", i, "is negative");
         runs[i].chain_length_px = v[0];
+    });
+    in.take<float>("chain_gaps", runs.size(), 4, [&](std::size_t i, const float* v) {
+        if (std::any_of(v, v + 4, [](float gap) { return gap < 0 || gap > kFarthestGapPx; }))
+            in.fail_at("chain_gaps", i, "is out of range");
+        runs[i].gaps_px = {v[0], v[1]};
+        runs[i].onward_gaps_px = {v[2], v[3]};
     });
     in.take<std::uint8_t>("chain_flags", runs.size(), 1, [&](std::size_t i, const std::uint8_t* v) {
         if (v[0] >= 4 * kLastEnd) in.fail_at("chain_flags", i, "is out of range");

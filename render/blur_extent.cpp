@@ -35,17 +35,18 @@ class Sight {
     /// Is not negative on the inner side.
     double inside(const glm::dvec3& v, int side) const {
         const double w = p_.orthographic ? 1.0 : -v.z;
+        const glm::dvec2 focal = p_.focal_xy_px();
         switch (side) {
             case 0:
                 return -v.z - p_.near_distance;
             case 1:
-                return (p_.center_px.x - low_.x) * w + p_.focal_px * v.x;
+                return (p_.center_px.x - low_.x) * w + focal.x * v.x;
             case 2:
-                return (high_.x - p_.center_px.x) * w - p_.focal_px * v.x;
+                return (high_.x - p_.center_px.x) * w - focal.x * v.x;
             case 3:
-                return (p_.center_px.y - low_.y) * w - p_.focal_px * v.y;
+                return (p_.center_px.y - low_.y) * w - focal.y * v.y;
             default:
-                return (high_.y - p_.center_px.y) * w + p_.focal_px * v.y;
+                return (high_.y - p_.center_px.y) * w + focal.y * v.y;
         }
     }
 
@@ -121,7 +122,8 @@ void BlurExtent::add(const Scene& scene, const Camera& camera) {
         if (is_in_front && track.was_in_front && (is_seen || track.was_seen))
             track.way_px += glm::distance(pixel, track.before);
         if (is_seen && camera.lens_radius > 0) {
-            const double radius = camera.lens_radius * projection.focal_px * std::abs(1 / -view.z - 1 / camera.focus);
+            const double focal = std::max(projection.focal_xy_px().x, projection.focal_px);
+            const double radius = camera.lens_radius * focal * std::abs(1 / -view.z - 1 / camera.focus);
             circle_px_ = std::max(circle_px_, 2 * radius);
         }
         track = {pixel, is_in_front, is_seen, track.way_px};

@@ -129,7 +129,7 @@ double near_distance(const SurfaceSet& surfaces, std::span<const Box> view_boxes
     const Projection& p = surfaces.projection;
     const double usual = kNear * farthest;
     const glm::dvec2 corner_px = glm::max(p.center_px, picture_px - p.center_px);
-    const double to_corner = glm::length(glm::dvec3(corner_px / p.focal_px, 1));  // of the picture, at depth 1
+    const double to_corner = glm::length(glm::dvec3(corner_px / p.focal_xy_px(), 1));  // of the picture, at depth 1
     const double nearest = nearest_surface(surfaces, view_boxes, usual * to_corner);
     return nearest < usual * to_corner ? std::max(0.5 * nearest / to_corner, kNearest * farthest) : usual;
 }

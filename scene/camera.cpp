@@ -167,6 +167,9 @@ void check(const CameraSettings& s) {
     if (!(std::abs(s.shift.x) <= kMostShift && std::abs(s.shift.y) <= kMostShift)) {
         throw InputError("the camera's shift must be from -100 to 100 heights of the picture");
     }
+    if (!(s.pixel_aspect >= kLeastPixelAspect && s.pixel_aspect <= kMostPixelAspect)) {
+        throw InputError("the camera's pixel aspect must be from 0.1 to 10");
+    }
     if (!(s.lens_radius >= 0 && s.lens_radius <= kMostCoordinate)) {
         throw InputError("the radius of the camera's lens must be from 0 to 1e30");
     }
@@ -182,10 +185,11 @@ glm::dmat4 rigid(const glm::dmat3& axes, const glm::dvec3& eye) {
     return matrix;
 }
 
-/// Has the camera see through its lens. `target`: what is in focus if the settings do not say it.
+/// Has the camera see through its lens, onto its pixels. `target`: what is in focus if the settings do not say it.
 template <typename Target>
 void add_lens(const CameraSettings& s, const Target& target, Camera& camera) {
     camera.shift = s.shift;
+    camera.pixel_aspect = s.pixel_aspect;
     if (s.lens_radius == 0) return;
     camera.lens_radius = s.lens_radius;
     camera.focus = s.focus ? *s.focus : glm::dot(camera.eye() - target(), glm::dvec3(camera.to_world[2]));
@@ -224,7 +228,8 @@ Projection Camera::projection(int width, int height_px, double near_distance) co
     Projection p;
     p.orthographic = orthographic;
     const double own_px = height_px * (area.high.y - area.low.y);
-    p.shift_px = own_px * glm::dvec2(-shift.x, shift.y);
+    p.set_pixel_aspect(pixel_aspect);
+    p.shift_px = own_px * glm::dvec2(-shift.x * p.x_scale, shift.y);
     p.center_px = 0.5 * (area.low + area.high) * glm::dvec2(width, height_px) + p.shift_px;
     p.focal_px = orthographic ? own_px / height : 0.5 * own_px / std::tan(glm::radians(fov_deg) / 2);
     p.near_distance = near_distance;
@@ -261,7 +266,7 @@ Box box_of(const PointSource& points) {
 Camera resolve_camera(const CameraSettings& settings, const PointSource& points, double aspect) {
     check(settings);
     const glm::dvec2 share = settings.area.high - settings.area.low;
-    aspect *= share.x / share.y;
+    aspect *= share.x / share.y * settings.pixel_aspect;
     if (settings.to_world) {
         Camera camera = from_matrix(settings);
         add_lens(

@@ -15,6 +15,8 @@
 
 namespace burin {
 
+inline constexpr double kLeastPixelAspect = 0.1, kMostPixelAspect = 10;
+
 /// What is said about a camera, in a scene or on the command line. What is not said is chosen so
 /// that the scene fills the picture.
 struct CameraSettings {
@@ -31,6 +33,7 @@ struct CameraSettings {
     std::optional<glm::dmat4> to_world;   ///< instead of eye, target, up (cameras of glTF files)
     ViewArea area;                        ///< of the picture: what fov, height and fit are about
     glm::dvec2 shift{0.0};                ///< of the lens, see Camera
+    double pixel_aspect = 1;              ///< a pixel's width / its height
     double lens_radius = 0;               ///< world units; 0: all is in focus
     std::optional<double> focus;          ///< distance in focus along the view axis; default: that of the target
 };
@@ -45,8 +48,9 @@ struct Camera {
     /// the lens is shifted: the picture shows what is so much farther to the right and up, in heights of the area,
     /// while the camera looks where it did.
     glm::dvec2 shift{0.0};
-    double lens_radius = 0;  ///< perspective only, world units; 0: all is in focus
-    double focus = 1;        ///< distance along the view axis that is in focus, if there is a lens
+    double pixel_aspect = 1;  ///< a pixel's width / its height, kLeastPixelAspect to kMostPixelAspect
+    double lens_radius = 0;   ///< perspective only, world units; 0: all is in focus
+    double focus = 1;         ///< distance along the view axis that is in focus, if there is a lens
 
     glm::dvec3 eye() const { return glm::dvec3(to_world[3]); }
     /// World to view space.
@@ -83,7 +87,8 @@ void for_each_point(const PointSource& points, const Visit& visit) {
 /// The smallest box around all points.
 Box box_of(const PointSource& points);
 
-/// Fills in what the settings leave open. `aspect` is width / height of the whole picture.
+/// Fills in what the settings leave open. `aspect` is width / height of the whole picture in
+/// pixels.
 ///
 /// Throws InputError (message without a place) for settings that define no view: eye = target, up
 /// along the view, a field of view outside of (0, 180), a height that is not positive, anything

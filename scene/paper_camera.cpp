@@ -5,6 +5,9 @@ namespace burin {
 void see_on_paper(const PictureSettings& picture, CameraSettings& camera) {
     camera.area = area_within_margins(picture);
     const PaperSettings& paper = picture.paper;
+    if (camera.pixel_aspect != 1 && (paper.size_mm || paper.scale)) {
+        throw InputError("pixels on paper are square; remove the camera's pixel_aspect, or the paper");
+    }
     if (!paper.scale) return;
     if (!camera.orthographic) {
         throw InputError(

@@ -87,7 +87,8 @@ void SceneSettings::set_style(const std::string& text_or_name) {
 SceneDescription SceneSettings::take(Tables scene, const std::string& name, const std::string& folder) {
     SceneDescription description = read_scene_tables(scene.root, {name, folder});
     // The settings stand in no folder.
-    if (const auto style = scene.root["style"].value<std::string>()) {
+    const auto style = scene.root["style"].value<std::string>();
+    if (style && style->find('\n') == std::string::npos) {
         const auto source = find_sheet(*style, folder);
         if (source && !source->file.empty()) scene.root.insert_or_assign("style", source->file);
     }

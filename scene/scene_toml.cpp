@@ -140,6 +140,7 @@ class SceneReader {
                 t.fail("shift", "must be from -100 to 100 heights of the picture");
             }
         }
+        camera.pixel_aspect = t.number("pixel_aspect", {kLeastPixelAspect, kMostPixelAspect}).value_or(1);
         camera.lens_radius = t.number("lens_radius", {0, 1e30}).value_or(0);
         camera.focus = t.number("focus", kPositive);
         if (camera.orthographic && camera.lens_radius > 0) t.fail("lens_radius", "an orthographic camera has no lens");
@@ -308,6 +309,8 @@ class SceneReader {
         if (!wishes_.style.empty()) {
             source = find_sheet(wishes_.style, {});
             if (!source) throw UsageError("--style: " + no_such_sheet(wishes_.style));
+        } else if (named && named->find('\n') != std::string::npos) {
+            return read_sheet_text(*named, root_.file() + ": style", wishes_.overrides);
         } else if (named) {
             source = find_sheet(*named, folder_);
             if (!source) root_.fail("style", no_such_sheet(*named));

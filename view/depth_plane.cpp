@@ -44,17 +44,17 @@ SpacePlane space_plane(const glm::dvec3 (&corners)[3]) {
 DepthPlane exact_depth_plane(const Projection& projection, const glm::dvec3 (&corners)[3]) {
     DepthPlane plane = with_range(projection, corners);
     const auto [n, c] = space_plane(corners);
-    const double f = projection.focal_px;
+    const glm::dvec2 f = projection.focal_xy_px();
     const glm::dvec2 center = projection.center_px;
     if (projection.orthographic) {
-        // z = (c - n.x x - n.y y) / n.z, x = (px - center.x) / f, y = (center.y - py) / f
-        plane.per_x = -n.x / (n.z * f);
-        plane.per_y = n.y / (n.z * f);
+        // z = (c - n.x x - n.y y) / n.z, x = (px - center.x) / f.x, y = (center.y - py) / f.y
+        plane.per_x = -n.x / (n.z * f.x);
+        plane.per_y = n.y / (n.z * f.y);
         plane.at_origin = c / n.z - plane.per_x * center.x - plane.per_y * center.y;
     } else {
-        // P = t * direction: 1/t = n.direction / c, direction = ((px - center.x) / f, (center.y - py) / f, -1)
-        plane.per_x = n.x / (f * c);
-        plane.per_y = -n.y / (f * c);
+        // P = t * direction: 1/t = n.direction / c, direction = ((px - center.x) / f.x, (center.y - py) / f.y, -1)
+        plane.per_x = n.x / (f.x * c);
+        plane.per_y = -n.y / (f.y * c);
         plane.at_origin = -n.z / c - plane.per_x * center.x - plane.per_y * center.y;
     }
     return usable(plane);

@@ -28,12 +28,12 @@ ViewPolygon clip(const ViewPolygon& polygon, const Inside& inside) {
 
 ViewPolygon clipped(const Projection& p, ViewPolygon polygon) {
     const auto reach = [&p](const glm::dvec3& v) { return kGuardBandPx * (p.orthographic ? 1.0 : -v.z); };
-    const double f = p.focal_px;
+    const glm::dvec2 f = p.focal_xy_px();
     polygon = clip(polygon, [&](const glm::dvec3& v) { return -v.z - p.near_distance; });
-    polygon = clip(polygon, [&](const glm::dvec3& v) { return reach(v) - f * v.x; });
-    polygon = clip(polygon, [&](const glm::dvec3& v) { return reach(v) + f * v.x; });
-    polygon = clip(polygon, [&](const glm::dvec3& v) { return reach(v) - f * v.y; });
-    return clip(polygon, [&](const glm::dvec3& v) { return reach(v) + f * v.y; });
+    polygon = clip(polygon, [&](const glm::dvec3& v) { return reach(v) - f.x * v.x; });
+    polygon = clip(polygon, [&](const glm::dvec3& v) { return reach(v) + f.x * v.x; });
+    polygon = clip(polygon, [&](const glm::dvec3& v) { return reach(v) - f.y * v.y; });
+    return clip(polygon, [&](const glm::dvec3& v) { return reach(v) + f.y * v.y; });
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ ViewPolygon clipped(const Projection& p, ViewPolygon polygon) {
 bool needs_no_clipping(const Projection& p, const glm::dvec3& corner) {
     if (-corner.z < p.near_distance) return false;
     const double reach = kGuardBandPx * (p.orthographic ? 1.0 : -corner.z);
-    return std::abs(corner.x) * p.focal_px <= reach && std::abs(corner.y) * p.focal_px <= reach;
+    return std::abs(corner.x * p.x_scale) * p.focal_px <= reach && std::abs(corner.y) * p.focal_px <= reach;
 }
 
 ScreenPolygon project_triangle(const Projection& projection, const glm::dvec3 (&corners)[3]) {

@@ -175,7 +175,8 @@ void PixelFiller::put_geometry(PixelRect rect, int y, Film& film) {
     const GeometryRow own{
         row_.distance, {row_.normal[0], row_.normal[1], row_.normal[2]}, {row_.ids[0], row_.ids[1], row_.ids[2]}};
     const bool is_made_in_place = !film.is_whole() && width % 4 == 0;  // see GeometryRow
-    kernels_.fill.geometry({p.orthographic, first.x, first.y, p.focal_px}, geometries_.data(),
+    const glm::dvec2 focal = p.focal_xy_px();
+    kernels_.fill.geometry({p.orthographic, first.x, first.y, focal.x, focal.y}, geometries_.data(),
                            &geometry_at_[static_cast<std::size_t>(y - rect.y0) * width], width,
                            is_made_in_place ? film.geometry_place(rect.x0, y, own) : own);
     if (!is_made_in_place) film.put_geometry(rect.x0, rect.x1, y, own);

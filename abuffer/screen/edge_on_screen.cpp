@@ -25,8 +25,8 @@ Part part_on_screen(const Projection& projection, const glm::dvec3& p, const glm
     };
     keep(-p.z - projection.near_distance, -q.z - projection.near_distance);
     const auto depth = [&](const glm::dvec3& view) { return projection.orthographic ? 1.0 : -view.z; };
-    const double reach = kGuardBandPx / projection.focal_px;
     for (int axis = 0; axis < 2; ++axis) {
+        const double reach = kGuardBandPx / projection.focal_xy_px()[axis];
         keep(reach * depth(p) - p[axis], reach * depth(q) - q[axis]);
         keep(reach * depth(p) + p[axis], reach * depth(q) + q[axis]);
     }

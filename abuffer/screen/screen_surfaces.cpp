@@ -30,6 +30,7 @@ ScreenTransform transform_of(const SurfaceSet& surfaces, const SurfaceInstance& 
     const Projection& p = surfaces.projection;
     t.orthographic = p.orthographic;
     t.focal_px = p.focal_px;
+    t.x_scale = p.x_scale;
     t.center_x = p.center_px.x;
     t.center_y = p.center_px.y;
     t.near_distance = p.near_distance;

@@ -45,6 +45,7 @@ std::string Fingerprints::of(const SceneChange& places, const std::vector<Camera
         add(camera.to_world, hash);
         hash.add(camera.orthographic ? -camera.height : camera.fov_deg);
         for (const glm::dvec2& two : {camera.area.low, camera.area.high, camera.shift}) hash.add(two.x).add(two.y);
+        if (camera.pixel_aspect != 1) hash.add(camera.pixel_aspect);
         if (camera.lens_radius > 0) hash.add(camera.lens_radius).add(camera.focus);
     }
     for (const std::string& file : files) add_content(file, hash);

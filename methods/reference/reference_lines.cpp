@@ -14,12 +14,6 @@ constexpr double kWidestCrackPx = 1;
 constexpr int kMaxRays = 96;    // between two samples
 constexpr int kMaxFacets = 48;  // on the way over a surface
 
-/// A position on the screen, times the distance in perspective: negative behind the eye.
-glm::dvec3 homogeneous(const Projection& p, const glm::dvec3& view) {
-    const double w = p.orthographic ? 1.0 : -view.z;
-    return {p.center_px.x * w + p.focal_px * view.x, p.center_px.y * w - p.focal_px * view.y, w};
-}
-
 }  // namespace
 
 /// The straight way between two samples, parametrised from 0 to 1.
@@ -93,7 +87,7 @@ ReferenceLines::Slice ReferenceLines::slice_of(const Way& way, Facet f) const {
     geometry_.corners(f, c);
     const Projection& p = geometry_.projection();
     for (int k = 0; k < 3; ++k) {
-        h[k] = homogeneous(p, c[k]);
+        h[k] = p.homogeneous(c[k]);
         side[k] = glm::dot(way.line, h[k]);
     }
     Slice slice;
@@ -443,7 +437,7 @@ bool ReferenceLines::seam_goes_on(const Way& way, Facet f, HalfEdge border, doub
     const double in_its_plane = geometry_.plane_distance(candidate, at);
     if (std::abs(distance - other) > tolerance && !(std::abs(distance - in_its_plane) <= tolerance)) return false;
     partner = candidate;
-    const double third_side = glm::dot(glm::cross(glm::dvec3(a, 1), glm::dvec3(b, 1)), homogeneous(p, c[2]));
+    const double third_side = glm::dot(glm::cross(glm::dvec3(a, 1), glm::dvec3(b, 1)), p.homogeneous(c[2]));
     return (third_side > 0) == (d.x * way.along.y - d.y * way.along.x > 0);
 }
 

@@ -8,14 +8,14 @@
 namespace burin {
 
 glm::dvec3 homogeneous_position(const Projection& p, const glm::dvec3& view) {
-    const double w = p.orthographic ? 1.0 : -view.z;
     if (needs_no_clipping(p, view)) {
+        const double w = p.orthographic ? 1.0 : -view.z;
         const glm::dvec2 pixel = p.to_pixel(view);
         return glm::dvec3(snap_to_subpixels(pixel.x) / kSubpixelsPerPixel,
                           snap_to_subpixels(pixel.y) / kSubpixelsPerPixel, 1.0) *
                w;
     }
-    return {p.center_px.x * w + p.focal_px * view.x, p.center_px.y * w - p.focal_px * view.y, w};
+    return p.homogeneous(view);
 }
 
 std::optional<WireEdge> wire_edge(const SurfaceSet& surfaces, std::uint32_t instance, HalfEdge half_edge,

@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/error.h"
 #include "base/interrupt.h"
 #include "base/stopwatch.h"
 #include "output/paths/chain_paths.h"
@@ -68,8 +69,18 @@ void add_in_parts(VectorPath path, VectorDrawing& drawing) {
 
 }  // namespace
 
+std::string note_on_means(const VectorStats& stats) {
+    if (stats.mean_inks == 0) return {};
+    return "a path has one colour and opacity: " + std::to_string(stats.mean_inks) +
+           " strokes that vary in them have their means";
+}
+
 VectorDrawing vector_drawing_of(InkedLines inked, const FoundLines& found, const VectorOptions& options,
                                 VectorStats& stats) {
+    if (found.projection.pixel_aspect != 1) {
+        throw UsageError(
+            "a vector file has no pixels that could be other than square; leave out the camera's pixel_aspect");
+    }
     VectorDrawing drawing;
     drawing.width_px = found.width_px;
     drawing.height_px = found.height_px;

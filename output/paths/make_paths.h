@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "base/progress.h"
 #include "output/paths/fit_path.h"
@@ -27,8 +28,12 @@ struct VectorStats {
 };
 
 /// Makes a drawing of lines with their looks: joins strokes to the longest paths, takes away what is drawn twice, and
-/// fits curves. `inked`: with origins. Of `lines` it reads what describes the picture, and the names of objects.
+/// fits curves. `inked`: with origins. Of `lines` it reads what describes the picture, and the names of objects. Throws
+/// UsageError if its pixels are not square.
 VectorDrawing vector_drawing_of(InkedLines inked, const FoundLines& lines, const VectorOptions& options,
                                 VectorStats& stats);
+
+/// What users should know of paths that are not drawn as their strokes were; empty: nothing.
+std::string note_on_means(const VectorStats& stats);
 
 }  // namespace burin

@@ -54,7 +54,7 @@ Camera resolve_turning_camera(const CameraSettings& settings, const PointSource&
     const double radius = 0.5 * glm::distance(box.low, box.high) + glm::distance(middle, *around.target);
     const glm::dvec2 share = settings.area.high - settings.area.low;
     const double slope = settings.fit * std::tan(glm::radians(settings.fov_deg) / 2);
-    const glm::dvec2 slopes(slope * aspect * share.x / share.y, slope);
+    const glm::dvec2 slopes(slope * aspect * share.x / share.y * settings.pixel_aspect, slope);
     return resolve_camera(around, sphere_points(*around.target, radius, glm::dmat3(first.to_world), slopes), aspect);
 }
 

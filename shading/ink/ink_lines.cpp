@@ -70,9 +70,12 @@ class StrokeMaker {
         if (style_.smooth_px > 0) smooth_ink(stroke.path, static_cast<double>(style_.smooth_px), is_loop);
         if (style_.has_overshoot && !is_loop) {
             const auto px = static_cast<double>(value_of(stroke.chain, ChainValue::overshoot));
-            const auto goes_on = [](RunEnd end) { return end == RunEnd::free || end == RunEnd::corner; };
-            if (has_begin && !run.is_closed && goes_on(run.ends[0])) lengthen_end(stroke.path, true, px);
-            if (has_end && !run.is_closed && goes_on(run.ends[1])) lengthen_end(stroke.path, false, px);
+            const auto lengthen = [&](bool at_begin, std::size_t which) {
+                const double share = freedom(run.onward_gaps_px[which]);
+                if (!run.is_closed && share > 0) lengthen_end(stroke.path, at_begin, px * share);
+            };
+            if (has_begin) lengthen(true, 0);
+            if (has_end) lengthen(false, 1);
         }
         chain_ = std::uint64_t{stroke.stretch.run} << 3 | copy;
         if (wishes_.origins) edge_ = lines_.chain_hash(run, variant_).bits();

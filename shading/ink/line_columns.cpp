@@ -159,7 +159,7 @@ void LineColumns::fill(std::span<const LineSample> samples, const VariableSet& v
     out.each(V::distance, [&](std::size_t i) {
         const double depth = depth_at(samples[i]);
         if (projection.orthographic) return depth;
-        const glm::dvec2 at = (place_of(samples[i]) - projection.center_px) / projection.focal_px;
+        const glm::dvec2 at = (place_of(samples[i]) - projection.center_px) / projection.focal_xy_px();
         return depth * std::sqrt(1 + glm::dot(at, at));
     });
     out.each(V::px_size, [&](std::size_t i) { return projection.pixel_size(depth_at(samples[i])); });

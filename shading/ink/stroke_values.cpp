@@ -129,11 +129,11 @@ float StrokeValues::share_of_loop(const LineSample& sample) const {
 float StrokeValues::taper(const LineRun& run, const ChainValues& chain, double from_begin_px,
                           double from_end_px) const {
     if (!style_.has_taper || run.is_closed) return 1;
-    const auto length = [&](ChainValue v, RunEnd end) {
-        const bool is_tapered = style_.taper_at == TaperAt::all || end == RunEnd::free;
-        return is_tapered ? std::max(0.0, static_cast<double>(value_of(chain, v))) : 0.0;
+    const auto length = [&](ChainValue v, std::size_t which) {
+        const double share = style_.taper_at == TaperAt::all ? 1 : freedom(run.gaps_px[which]);
+        return share * std::max(0.0, static_cast<double>(value_of(chain, v)));
     };
-    double start = length(ChainValue::taper_start, run.ends[0]), end = length(ChainValue::taper_end, run.ends[1]);
+    double start = length(ChainValue::taper_start, 0), end = length(ChainValue::taper_end, 1);
     fit(start, end, from_begin_px + from_end_px);
     return tapered(from_begin_px, start, style_.taper_shape) * tapered(from_end_px, end, style_.taper_shape);
 }

@@ -16,14 +16,16 @@ ShadedTriangle::ShadedTriangle(const ShadedSurfaces& shaded, SurfaceId id) : id_
     const glm::dvec3 area = glm::cross(corners_[1] - corners_[0], corners_[2] - corners_[0]);
     const double facing = p.orthographic ? area.z : -glm::dot(area, corners_[0]);
     const double side = facing < 0 ? -1 : 1;
-    const double x0 = -p.center_px.x / p.focal_px, y0 = p.center_px.y / p.focal_px, step = 1 / p.focal_px;
+    const glm::dvec2 focal = p.focal_xy_px();
+    const double x0 = -p.center_px.x / focal.x, y0 = p.center_px.y / focal.y;
+    const glm::dvec2 step = 1.0 / focal;
     for (int k = 0; k < 3; ++k) {
         const glm::dvec3 &a = corners_[(k + 1) % 3], &b = corners_[(k + 2) % 3];
         // In an orthographic view, places are seen as from a plane at a distance of 1.
         const glm::dvec3 edge = p.orthographic ? glm::cross(glm::dvec3(a.x, a.y, 1), glm::dvec3(b.x, b.y, 1)) * side
                                                : glm::cross(a, b) * -side;
         const double depth = p.orthographic ? edge.z : -edge.z;
-        weights_[k] = {edge.x * x0 + edge.y * y0 + depth, edge.x * step, -edge.y * step};
+        weights_[k] = {edge.x * x0 + edge.y * y0 + depth, edge.x * step.x, -edge.y * step.y};
     }
 
     const glm::dvec3 own = surfaces.view_normal(id);

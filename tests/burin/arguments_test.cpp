@@ -120,7 +120,7 @@ TEST(Arguments, EveryNumberOfAViewIsChecked) {
             v.shift[0] = 0.25;
         },
         "shift");
-    expect_refused([](burin_view& v) { v.pixel_aspect = 2; }, "pixel_aspect");
+    for (const double bad : {0.09, 10.1}) expect_refused([&](burin_view& v) { v.pixel_aspect = bad; }, "pixel_aspect");
     for (const int bad : {1000000001, -1000000001, std::numeric_limits<int>::min()})
         expect_refused([&](burin_view& v) { v.frame = bad; }, "frame");
     for (const int bad : {-1, 1, 3, 16, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()})
@@ -140,7 +140,7 @@ TEST(Arguments, EveryNumberOfAViewIsChecked) {
         },
         "camera_to_world");                                                               // a mirror
     expect_refused([](burin_view& v) { v.camera_to_world[12] = 1; }, "camera_to_world");  // no row by row
-    good.pixel_aspect = 1;
+    good.pixel_aspect = 10;
     burin_picture_free(burin_render(scene.get(), &good, nullptr));
 }
 

@@ -8,31 +8,42 @@
 #include <initializer_list>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "tests/burin/any_arguments.h"
 
 namespace burin::test {
 
-/// Calls of one scene in any order, with whatever arguments. Pointers and the numbers of their elements are right, or
-/// too many to be meant.
+/// Calls of one scene in any order, with whatever arguments: all functions of burin.h. Pointers are right, or NULL, and
+/// the numbers of their elements right, or too many to be meant. `folder`: where files are written; "": none are.
 ///
 /// `Choices` chooses: integer(low, high) and real(low, high) between both, bits64(). Its fail(text) is told what must
 /// not be.
 template <typename Choices>
-class LibraryCaller {
+class LibraryCaller : private AnyArguments<Choices> {
   public:
-    explicit LibraryCaller(Choices& random) : random_(random), scene_(burin_scene_new()) {
+    explicit LibraryCaller(Choices& random, std::string folder = {})
+        : AnyArguments<Choices>(random), random_(random), folder_(std::move(folder)), scene_(burin_scene_new()) {
+        if (burin_abi() != BURIN_ABI || burin_version() == nullptr) random_.fail("the library is of another version");
         if (burin_set(scene_, "picture.size=[12, 9]") != 0) random_.fail("the size cannot be set");
         add_shaders();
     }
     LibraryCaller(const LibraryCaller&) = delete;
     LibraryCaller& operator=(const LibraryCaller&) = delete;
+    /// Pictures and drawings outlive their scene.
     ~LibraryCaller() {
-        burin_picture_free(picture_);
         burin_scene_free(scene_);
+        scene_ = nullptr;
+        look_at_channels();
+        look_at_lines();
+        encode();
+        burin_picture_free(picture_);
+        burin_drawing_free(drawing_);
     }
 
     void call() {
-        switch (random_.integer(0, 16)) {
+        switch (random_.integer(0, 22)) {
             case 0:
                 return expect_told(add_mesh());
             case 1:
@@ -42,41 +53,62 @@ class LibraryCaller {
             case 3:
                 return expect_told(move_object());
             case 4:
-                return expect_told(burin_remove_object(scene_, number_of(9)));
+                return expect_told(burin_remove_object(scene_or_null(), number_of(9)));
             case 5:
-                return expect_told(burin_remove_mesh(scene_, number_of(30)));
+                return expect_told(burin_remove_mesh(scene_or_null(), number_of(30)));
             case 6:
                 return expect_told(random_.integer(0, 30) == 0 ? burin_clear_objects(scene_) : 0);
             case 7:
-                return expect_told(burin_set(scene_, setting().c_str()));
+                return expect_told(burin_set(scene_or_null(), setting().c_str()));
             case 8:
-                return expect_told(burin_set_toml(scene_, toml().c_str()));
+                return expect_told(burin_set_toml(scene_or_null(), toml().c_str()));
             case 9:
                 return expect_told(
                     random_.integer(0, 9) == 0
                         ? burin_load_text(scene_, toml().c_str(), random_.integer(0, 1) == 0 ? nullptr : "/none")
                         : 0);
             case 10:
-                return expect_told(burin_object_of_id(scene_, static_cast<std::uint32_t>(integer())));
+                return expect_told(burin_object_of_id(scene_or_null(), static_cast<std::uint32_t>(integer())));
             case 11:
-                burin_object_name(scene_, number_of(9));
-                burin_note(scene_, static_cast<int>(integer()));
-                explain();
-                return burin_cancel(scene_);
+                burin_object_name(scene_or_null(), number_of(9));
+                burin_note(scene_or_null(), static_cast<int>(integer()));
+                return burin_cancel(scene_or_null());
             case 12:
                 return encode();
             case 13:
                 return look_at_channels();
             case 14:
-                return expect_told(random_.integer(0, 3) == 0 ? burin_set_style(scene_, style()) : 0);
+                return expect_told(random_.integer(0, 3) == 0 ? burin_set_style(scene_or_null(), style()) : 0);
+            case 15:
+                return expect_told(load());
+            case 16:
+                return scene_box();
+            case 17:
+                return look_at_lines();
+            case 18:
+                return expect_told(add_shader());
+            case 19:
+                return explain();
+            case 20:
+                return draw_again();
             default:
                 return render();
         }
     }
 
     int pictures() const { return pictures_; }
+    /// For burin_cancel() of other threads, as long as this lives.
+    burin_scene* scene() const { return scene_; }
 
   private:
+    using Any = AnyArguments<Choices>;
+    using Any::any_count, Any::integer, Any::matrix, Any::mostly, Any::number, Any::number_of, Any::setting;
+    using Any::size_of_struct, Any::style, Any::toml;
+
+    template <typename T>
+    T one_of(std::initializer_list<T> values) {
+        return Any::template one_of<T>(values);
+    }
     void expect_told(int result) {
         if (result >= 0) return;
         const std::string text = burin_error();
@@ -85,52 +117,13 @@ class LibraryCaller {
         }
     }
 
+    burin_scene* scene_or_null() { return random_.integer(0, 99) == 0 ? nullptr : scene_; }
+    /// What a function that returns a pointer has to say where it returned NULL.
     template <typename T>
-    T one_of(std::initializer_list<T> values) {
-        return values.begin()[random_.integer(0, static_cast<int>(values.size()) - 1)];
-    }
-    double number() {
-        using Limits = std::numeric_limits<double>;
-        switch (random_.integer(0, 9)) {
-            case 0:
-                return one_of(
-                    {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(), Limits::max(), Limits::lowest()});
-            case 1:
-                return one_of(
-                    {Limits::denorm_min(), Limits::min(), -0.0, 1e30, -1e30, 1e-30, 1e60, 180.0, 179.9999999, 1e-6});
-            case 2:
-                return std::ldexp(random_.real(-1, 1), random_.integer(-120, 120));
-            case 3:
-                return one_of({0.0, 1.0, -1.0, 0.5});
-            default:
-                return random_.real(-2, 2);
-        }
-    }
-    std::int32_t integer() {
-        using Limits = std::numeric_limits<std::int32_t>;
-        return random_.integer(0, 3) == 0 ? one_of({Limits::min(), Limits::max(), -1, 0, 1, 65535, 65536})
-                                          : random_.integer(-2, 12);
-    }
-    int number_of(int usual) { return random_.integer(0, 9) == 0 ? integer() : random_.integer(1, usual); }
-    /// Now and then that of an older version, which ends behind a whole field.
-    std::uint32_t size_of_struct(std::size_t right) {
-        const auto size = static_cast<std::uint32_t>(right);
-        return random_.integer(0, 19) == 0 ? size / 8 * static_cast<std::uint32_t>(random_.integer(0, 8)) / 8 * 8
-                                           : size;
-    }
-    std::uint64_t count(std::size_t right) {
-        if (random_.integer(0, 29) != 0) return right;
-        return one_of({std::uint64_t{1} << 32, std::uint64_t{1} << 62, std::numeric_limits<std::uint64_t>::max(),
-                       std::numeric_limits<std::uint64_t>::max() / 3 + 1});
-    }
-    /// Numbers that a field mostly takes.
-    double mostly(double low, double high) { return random_.integer(0, 19) == 0 ? number() : random_.real(low, high); }
-    void matrix(double (&to)[16]) {
-        const int kind = random_.integer(0, 3);
-        for (double& element : to) element = 0;
-        if (kind == 0) return;
-        for (int i = 0; i < 12; ++i) to[i] = kind == 1 ? number() : mostly(-2, 2);
-        to[15] = random_.integer(0, 19) == 0 ? number() : 1;
+    T* told(T* result) {
+        if (result == nullptr && burin_error_kind() >= 0) random_.fail("NULL without an error");
+        if (result == nullptr) expect_told(burin_error_kind());
+        return result;
     }
 
     int add_mesh() {
@@ -160,17 +153,17 @@ class LibraryCaller {
         burin_mesh mesh = {};
         mesh.size = size_of_struct(sizeof mesh);
         mesh.name = one_of<const char*>({nullptr, "", "name"});
-        mesh.points = points.data(), mesh.point_count = count(points.size() / 3);
-        mesh.corners = corners.data(), mesh.corner_count = count(corners.size());
+        mesh.points = points.data(), mesh.point_count = any_count(points.size() / 3);
+        mesh.corners = corners.data(), mesh.corner_count = any_count(corners.size());
         if (random_.integer(0, 4) != 0) mesh.polygon_sizes = sizes.data();
-        mesh.polygon_count = mesh.polygon_sizes != nullptr || random_.integer(0, 1) == 0 ? count(sizes.size()) : 0;
+        mesh.polygon_count = mesh.polygon_sizes != nullptr || random_.integer(0, 1) == 0 ? any_count(sizes.size()) : 0;
         // One triangle more than there are polygons: without sizes, these arrays do not fit.
         materials.resize(64), objects.resize(64);
         if (random_.integer(0, 1) == 0) mesh.polygon_materials = materials.data();
         if (random_.integer(0, 2) == 0) mesh.polygon_objects = objects.data();
         mesh.object_count = mesh.polygon_objects == nullptr ? 0 : 3;
         if (random_.integer(0, 1) == 0) mesh.object_names = names;
-        mesh.marked_edges = marks.data(), mesh.marked_edge_count = count(marks.size() / 2);
+        mesh.marked_edges = marks.data(), mesh.marked_edge_count = any_count(marks.size() / 2);
         // Attributes that are there have as many numbers as the counts say that they need.
         const std::vector<float> values(3 * std::max(corners.size(), points.size()) + 3,
                                         static_cast<float>(random_.real(-2, 2)));
@@ -182,7 +175,7 @@ class LibraryCaller {
             mesh.attribute_names = names, mesh.point_attributes = arrays;
             mesh.attribute_count = static_cast<std::uint64_t>(random_.integer(0, 2));
         }
-        return burin_add_mesh(scene_, &mesh);
+        return burin_add_mesh(scene_or_null(), random_.integer(0, 99) == 0 ? nullptr : &mesh);
     }
     int add_object() {
         burin_object object = {};
@@ -191,75 +184,81 @@ class LibraryCaller {
         object.material = random_.integer(0, 2) == 0 ? integer() : 0;
         object.name = one_of<const char*>({nullptr, "", "object"});
         matrix(object.to_world);
-        return burin_add_object(scene_, &object);
+        return burin_add_object(scene_or_null(), &object);
     }
     int add_material() {
         burin_material material = {};
         material.size = size_of_struct(sizeof material);
         material.opacity = static_cast<float>(mostly(0, 1));
         for (float& c : material.color) c = static_cast<float>(mostly(0, 1));
-        return burin_add_material(scene_, &material);
+        return burin_add_material(scene_or_null(), &material);
     }
     int move_object() {
         double to_world[16];
         matrix(to_world);
-        return burin_move_object(scene_, number_of(9), to_world);
+        return burin_move_object(scene_or_null(), number_of(9), random_.integer(0, 99) == 0 ? nullptr : to_world);
     }
-    std::string setting() {
-        const char* const key = one_of(
-            {"lines.width", "lines.draw", "lines.crease_angle", "lines.hidden.style", "lines.hidden.width",
-             "lines.dash", "lines.side", "lines.filter", "lines.contours", "surfaces.shading", "abuffer.samples",
-             "camera.fov", "camera.eye", "lines", "", "picture.background", "x.y.z", "style.width", "style.i.opacity"});
-        const char* const value =
-            one_of({"1",     "2.5",    "nan",       "-1",      "1e999",    "all",        "none",    "dashed",
-                    "solid", "[3, 2]", "[1, 2, 3]", "smooth",  "mitchell", "inside",     "lambert", "8",
-                    "[",     "\"",     "",          "{a = 1}", "\xff",     "transparent"});
-        return std::string(key) + (random_.integer(0, 29) == 0 ? "" : "=") + value;
-    }
-    std::string toml() {
-        return one_of({"", "[lines]\nwidth = 3\n", "[lines]\nwidth = inf\n", "[[camera]]\neye = [1, 2, 3]\n",
-                       "[[object]]\nshape = \"box\"\n", "[[object]]\nfile = \"none.obj\"\n",
-                       "[lines.hidden]\nstyle = \"dashed\"\n", "[lines]\ndash = [1, 2]\n", "[", "a = [[[[",
-                       "[surfaces]\nshading = 3\n", "\xff\xfe",
-                       "[[camera]]\nprojection = \"orthographic\"\ndirection = [0, 0, 1]\n",
-                       "[[object]]\nshape = \"sphere\"\nscale = [1, 1e20, 1]\n"});
-    }
-
-    /// Of the sheets, some need much of lines and some little.
-    const char* style() {
-        return one_of<const char*>(
-            {nullptr, "", "technical", "pencil", "patent", "wool", "none.toml", "[[set]]\n",
-             "[[set]]\nname=\"a\"\nclasses=[\"crease\",\"border\"]\nstyle=\"i\"\n[style.i]\nwidth=\"=1/0*(x-x)+3\"\n",
-             "[[set]]\nname=\"a\"\nclasses=[\"silhouette\"]\nlayer=true\nstyle=\"i\"\n[style.i]\nopacity=0.5\n"
-             "color=\"=N\"\ntaper={start=9}\n",
-             "[[set]]\nname=\"a\"\nclasses=[\"crease\"]\nstyle=\"i\"\n[style.i]\nwidth=\"=depht\"\n",
-             "[[set]]\nname=\"a\"\nclasses=[\"crease\",\"silhouette\"]\ntest=\"wild\"\nstyle=\"i\"\n[style.i]\n"
-             "shader=\"wild\"\n"});
-    }
-
     /// Only now and then, since it takes long.
     void explain() {
-        if (++explanations_ % 64 != 0) return;
-        if (burin_explain(scene_, nullptr, nullptr, 6, 4, "json") == nullptr) expect_told(burin_error_kind());
+        if (++explanations_ % 16 != 0) return;
+        const burin_view view = any_view();
+        const int x = mostly_within(), y = mostly_within();
+        told(burin_explain(scene_or_null(), random_.integer(0, 1) == 0 ? &view : nullptr, nullptr, x, y,
+                           one_of<const char*>({"json", "text", "", nullptr})));
     }
-    /// Adds callbacks that leave numbers of any kind.
+    int mostly_within() { return random_.integer(0, 9) == 0 ? integer() : random_.integer(0, 8); }
+    /// Callbacks that leave numbers of any kind.
+    static int shade(const burin_line_samples* in, burin_line_ink* out, void*) {
+        fill(out->width_px, in->count, 0);
+        // The widest lines would take most of the time.
+        for (std::uint32_t i = 0; i < in->count; ++i) out->width_px[i] = std::min(out->width_px[i], 40.0f);
+        fill(out->offset_px, in->count, 1);
+        fill(out->opacity, in->count, 2);
+        fill(out->blue, in->count, 5);
+        return 0;
+    }
+    static int test(const burin_line_samples* in, float* strength, void*) {
+        fill(strength, in->count, 3);
+        return 0;
+    }
     void add_shaders() {
-        const burin_line_shader shader = [](const burin_line_samples* in, burin_line_ink* out, void*) {
-            fill(out->width_px, in->count, 0);
-            // The widest lines would take most of the time.
-            for (std::uint32_t i = 0; i < in->count; ++i) out->width_px[i] = std::min(out->width_px[i], 40.0f);
-            fill(out->offset_px, in->count, 1);
-            fill(out->opacity, in->count, 2);
-            fill(out->blue, in->count, 5);
-            return 0;
-        };
-        const burin_line_test test = [](const burin_line_samples* in, float* strength, void*) {
-            fill(strength, in->count, 3);
-            return 0;
-        };
-        if (burin_add_line_shader(scene_, "wild", "N, C.r, s", shader, nullptr) != 0 ||
+        if (burin_add_line_shader(scene_, "wild", "N, C.r, s", shade, nullptr) != 0 ||
             burin_add_line_test(scene_, "wild", "gap, facing, qi", test, nullptr) != 0)
             random_.fail("shaders cannot be added");
+    }
+    int add_shader() {
+        const char* const name = one_of<const char*>({"wild", "wild", "other", "no name", "", nullptr});
+        const char* const variables =
+            one_of<const char*>({nullptr, "", "depth", "N, Cv, curvature", "nothing", "depth,,", "attr(\"a\")"});
+        const int kind = random_.integer(0, 4);
+        if (random_.integer(0, 2) == 0) {
+            const burin_line_test fails = [](const burin_line_samples*, float*, void*) { return 7; };
+            return burin_add_line_test(scene_or_null(), name, variables,
+                                       kind == 0   ? nullptr
+                                       : kind == 1 ? fails
+                                                   : test,
+                                       nullptr);
+        }
+        const burin_line_shader fails = [](const burin_line_samples* in, burin_line_ink*, void*) {
+            std::fill_n(in->message, in->message_size, 'x');  // without an end
+            burin_cancel(nullptr);
+            return -1;
+        };
+        return burin_add_line_shader(scene_or_null(), name, variables,
+                                     kind == 0   ? nullptr
+                                     : kind == 1 ? fails
+                                                 : shade,
+                                     nullptr);
+    }
+    int load() {
+        if (random_.integer(0, 9) != 0) return 0;
+        const char* const name = one_of<const char*>({"/none.obj", "/", "", nullptr, "/none/\xff.toml", "a", "b.png"});
+        if (name == nullptr || *name == '/' || folder_.empty()) return burin_load(scene_or_null(), name);
+        return burin_load(scene_or_null(), (folder_ + "/" + name).c_str());
+    }
+    void scene_box() {
+        double low[3], high[3];
+        expect_told(burin_scene_box(scene_or_null(), random_.integer(0, 29) == 0 ? nullptr : low, high));
     }
     static void fill(float* to, std::uint32_t count, std::uint32_t from) {
         using Limits = std::numeric_limits<float>;
@@ -268,7 +267,7 @@ class LibraryCaller {
         for (std::uint32_t i = 0; i < count; ++i) to[i] = kNumbers[(i + from) % 9];
     }
 
-    void render() {
+    burin_view any_view() {
         burin_view view = {};
         view.size = size_of_struct(sizeof view);
         if (random_.integer(0, 3) != 0) {
@@ -284,8 +283,12 @@ class LibraryCaller {
         if (random_.integer(0, 29) == 0) view.camera = one_of<const char*>({"", "none"});
         if (random_.integer(0, 2) != 0) rigid_camera(view);
         if (random_.integer(0, 29) == 0) view.shift[random_.integer(0, 1)] = number();
-        if (random_.integer(0, 29) == 0) view.pixel_aspect = number();
+        if (random_.integer(0, 9) == 0) view.pixel_aspect = mostly(0.1, 10);
         if (random_.integer(0, 29) == 0) view.frame = integer();
+        return view;
+    }
+    void render() {
+        const burin_view view = any_view();
         burin_options options = {};
         options.size = size_of_struct(sizeof options);
         options.threads =
@@ -297,26 +300,50 @@ class LibraryCaller {
         const int stop = random_.integer(0, 3) == 0 ? 1 : 0;
         options.progress = [](double, void* user) { return *static_cast<const int*>(user); };
         options.user = const_cast<int*>(&stop);
-        if (random_.integer(0, 2) == 0) return look_at_lines(burin_find_lines(scene_, &view, &options));
-        burin_picture* const picture = burin_render(scene_, &view, &options);
-        if (picture == nullptr) return expect_told(burin_error_kind());
+        options.find_all = random_.integer(0, 9) == 0 ? integer() : 0;
+        options.for_paths = random_.integer(0, 3) == 0 ? integer() : 0;
+        if (random_.integer(0, 2) == 0) {
+            burin_drawing* const drawing = told(burin_find_lines(scene_or_null(), &view, &options));
+            if (drawing == nullptr) return;
+            burin_drawing_free(drawing_);
+            drawing_ = drawing;
+            look_at_lines();
+            return draw_again();
+        }
+        take(told(burin_render(scene_or_null(), &view, &options)));
+    }
+    void take(burin_picture* picture) {
+        if (picture == nullptr) return;
         burin_picture_free(picture_);
         picture_ = picture;
         ++pictures_;
     }
-    void look_at_lines(burin_drawing* drawing) {
-        if (drawing == nullptr) return expect_told(burin_error_kind());
+    void draw_again() {
+        burin_options options = {};
+        options.size = size_of_struct(sizeof options);
+        options.threads = random_.integer(0, 29) == 0 ? integer() : 1;
+        if (random_.integer(0, 29) == 0) options.layers = "beauty";
+        take(told(burin_draw(drawing_, random_.integer(0, 9) == 0 ? style() : nullptr,
+                             random_.integer(0, 1) == 0 ? &options : nullptr)));
+    }
+    void look_at_lines() {
         for (int i = random_.integer(0, 3); i > 0; --i) {
             std::int32_t type = 0;
             std::uint64_t count = 0;
-            burin_column(drawing, one_of({"x0", "line", "object", "invisibility", "", "width"}), &type, &count);
+            const char* const name = one_of<const char*>({"x0", "y1", "nearness0", "line", "object", "material",
+                                                          "classes", "invisibility", "", "width", nullptr});
+            const void* const values =
+                told(burin_column(drawing_, name, random_.integer(0, 9) == 0 ? nullptr : &type, &count));
+            if (values == nullptr) continue;
+            // All that is promised is there.
+            constexpr int kBytes[] = {0, 2, 4, 4, 8, 8, 2, 1};
+            if (type < 0 || type > BURIN_UINT8) return random_.fail("a column has no type");
+            read(values, count * static_cast<std::uint64_t>(kBytes[type]));
         }
-        burin_picture* const picture = burin_draw(drawing, random_.integer(0, 9) == 0 ? style() : nullptr, nullptr);
-        burin_drawing_free(drawing);
-        if (picture == nullptr) return expect_told(burin_error_kind());
-        burin_picture_free(picture_);
-        picture_ = picture;
-        ++pictures_;
+    }
+    /// Reads memory, so that sanitizers see whether it is there.
+    void read(const void* memory, std::uint64_t bytes) {
+        for (std::uint64_t i = 0; i < bytes; ++i) sum_ += static_cast<const unsigned char*>(memory)[i];
     }
     /// Nearly always rigid, as much as single precision is.
     void rigid_camera(burin_view& view) {
@@ -341,24 +368,48 @@ class LibraryCaller {
         if (random_.integer(0, 2) == 0) view.ortho_height = mostly(0.1, 5);
     }
     void encode() {
-        if (picture_ == nullptr) return;
+        const void* const given = random_.integer(0, 2) == 0    ? static_cast<const void*>(drawing_)
+                                  : random_.integer(0, 49) == 0 ? nullptr
+                                                                : picture_;
         std::uint8_t* bytes = nullptr;
         std::uint64_t count = 0;
-        expect_told(burin_encode(picture_, one_of({"png", "png16", "exr", "jpg", ""}),
-                                 random_.integer(0, 9) == 0 ? style() : nullptr, &bytes, &count));
+        const char* const format =
+            one_of<const char*>({"png", "png16", "exr", "svg", "pdf", "dxf", "png", "exr", "svg", "jpg", "", nullptr});
+        const char* const as = random_.integer(0, 9) == 0 ? style() : nullptr;
+        if (!folder_.empty() && random_.integer(0, 19) == 0) {
+            const char* const name = one_of({"/a.png", "/b.svg", "/none/a.exr", "/a", "/.", ""});
+            return expect_told(
+                burin_write(given, random_.integer(0, 1) == 0 ? nullptr : format, as, (folder_ + name).c_str()));
+        }
+        const int result = burin_encode(given, format, as, random_.integer(0, 99) == 0 ? nullptr : &bytes, &count);
+        expect_told(result);
+        if (result == 0) read(bytes, count);
+        burin_file_note(integer());
         burin_bytes_free(bytes);
     }
     void look_at_channels() {
-        if (picture_ == nullptr) return;
         std::int32_t type = 0, size[2] = {};
-        burin_channel(picture_, one_of({"R", "Z", "", "id.object", "lines.A"}), &type, size);
+        const char* const name = one_of<const char*>({"R", "Z", "", "id.object", "lines.A", nullptr});
+        if (const void* const values = told(burin_channel(picture_, name, &type, size))) {
+            const auto pixels = static_cast<std::uint64_t>(size[0]) * static_cast<std::uint64_t>(size[1]);
+            read(values, pixels * (type == BURIN_HALF ? 2 : 4));
+        }
         burin_channel_name(picture_, integer());
+        burin_picture_note(picture_, integer());
+        if (picture_ == nullptr) return;
+        expect_told(burin_picture_size(picture_, size));
+        const int channels = random_.integer(0, 9) == 0 ? integer() : one_of({1, 3, 4});
+        std::vector<std::uint8_t> bytes(4 * static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]));
+        expect_told(burin_pixels(picture_, random_.integer(0, 49) == 0 ? nullptr : bytes.data(), channels));
     }
 
     Choices& random_;
+    std::string folder_;
     burin_scene* scene_;
     burin_picture* picture_ = nullptr;
+    burin_drawing* drawing_ = nullptr;
     int pictures_ = 0, explanations_ = 0;
+    unsigned sum_ = 0;
 };
 
 }  // namespace burin::test

@@ -210,5 +210,35 @@ TEST(LibraryStyle, DrawingsAreWrittenAsPaths) {
     EXPECT_THROW(scene.render(kView).encode("svg"), Error);
 }
 
+TEST(LibraryStyle, FilesHaveTheNotesOfTheProgram) {
+    const TemporaryFolder folder;
+    folder.write("fades.toml",
+                 "[style.a]\ncolor = \"=mix(#ff0000, #0000ff, x / 160)\"\nopacity = 0.5\n[[set]]\nname = \"s\"\n"
+                 "classes = [\"silhouette\", \"crease\"]\nstyle = \"a\"\n");
+    Scene scene = Scene::load(kScenes + "cube.toml");
+    scene.set_style(folder.file("fades.toml"));
+    const Drawing drawing = scene.find_lines(kView, {.for_paths = true}), unnamed = scene.find_lines(kView);
+    for (const std::string format : {"svg", "dxf", "png"}) {
+        const ProgramResult result = run_burin(folder.path(), {"render", kScenes + "cube.toml", "--size", "160x120",
+                                                               "--style", "fades.toml", "-o", "program." + format});
+        const std::vector<std::byte> file = drawing.encode(format);
+        EXPECT_TRUE(std::string(reinterpret_cast<const char*>(file.data()), file.size()) ==
+                        read_file(folder.file("program." + format)) ||
+                    format == "png");  // to the bit where lines are found for paths, too
+        std::string told;
+        for (const std::string& note : file_notes()) told += "burin: note: " + note + "\n";
+        EXPECT_EQ(result.err, told) << format;
+        EXPECT_EQ(told.empty(), format == "png");
+        EXPECT_THROW(drawing.encode("jpg"), Error);  // leaves them
+        EXPECT_EQ(file_notes().empty(), format == "png");
+        EXPECT_EQ(burin_file_note(-1), nullptr);
+    }
+    // This sheet asks for no chains, so edges are not told apart.
+    const std::vector<std::byte> svg = unnamed.encode("svg");
+    const std::string text(reinterpret_cast<const char*>(svg.data()), svg.size());
+    EXPECT_EQ(text.find("data-edge"), std::string::npos);
+    EXPECT_NE(text.find("<path"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace burin::test::style_test

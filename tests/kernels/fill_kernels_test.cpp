@@ -60,6 +60,7 @@ TEST(FillKernels, PixelsLieInThePlanesOfTheirTriangles) {
         Projection projection;
         projection.orthographic = seed % 2 == 1;
         projection.focal_px = random.real(50, 900);
+        if (seed % 4 >= 2) projection.set_pixel_aspect(random.real(0.2, 5));
         projection.center_px = {random.real(0, 640), random.real(0, 480)};
         std::vector<TriangleGeometry> geometries(20);
         geometries[0].nearest = geometries[0].farthest = std::numeric_limits<double>::infinity();  // the background
@@ -78,11 +79,12 @@ TEST(FillKernels, PixelsLieInThePlanesOfTheirTriangles) {
         std::array<std::uint16_t, kCount> geometry_at;
         for (std::uint16_t& l : geometry_at) l = static_cast<std::uint16_t>(random.integer(0, 19));
         const int x0 = random.integer(0, 600), y = random.integer(0, 479);
+        const glm::dvec2 focal = projection.focal_xy_px();
         const glm::dvec2 first = glm::dvec2(x0 + 0.5, y + 0.5) - projection.center_px;
         for (const TileKernels* kernels : all_kernels()) {
             std::array<float, kCount + 3> distance, normal[3];
             std::array<std::uint32_t, kCount + 3> ids[3];
-            kernels->fill.geometry({projection.orthographic, first.x, first.y, projection.focal_px}, geometries.data(),
+            kernels->fill.geometry({projection.orthographic, first.x, first.y, focal.x, focal.y}, geometries.data(),
                                    geometry_at.data(), kCount,
                                    {distance.data(),
                                     {normal[0].data(), normal[1].data(), normal[2].data()},

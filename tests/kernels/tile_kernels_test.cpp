@@ -371,6 +371,7 @@ TEST(TileKernels, AllInstructionSetsGiveTheSameBits) {
         for (double& v : column) v = random.real(-1, 1);
     }
     t.focal_px = 700;
+    t.x_scale = 0.75;
     t.center_x = 320;
     t.center_y = 240;
     t.near_distance = 0.1;

@@ -314,5 +314,49 @@ TEST(RunEnds, AreFreeAtCusps) {
     }
 }
 
+/// The gaps at the end of the run that begins near a place, (0: its nearest to anything, 1: onward).
+std::array<float, 2> gaps_from(const FoundLines& lines, glm::dvec2 begin) {
+    for (const LineRun& run : lines.runs.runs) {
+        const auto pieces = lines.runs.pieces_of(run);
+        if (glm::distance(pieces.front().piece.from, begin) < 1) return {run.gaps_px[1], run.onward_gaps_px[1]};
+        if (glm::distance(pieces.back().piece.to, begin) < 1) return {run.gaps_px[0], run.onward_gaps_px[0]};
+    }
+    ADD_FAILURE() << "no run begins at " << begin.x << ", " << begin.y;
+    return {};
+}
+
+TEST(RunEnds, KnowHowFarIsWhatMayStopThem) {
+    const auto turned = [](PolygonSoup soup) {
+        return transformed(soup, [](glm::dvec3 p) { return glm::dvec3(p.y, p.x, p.z); });
+    };
+    // Each crease ends at x = 60. What is after it: another that goes on, so many pixels farther; or one across it.
+    for (const double gap : {1.0, 3.0, 9.0, 14.0, 40.0}) {
+        const ShadedScene scene({folded(20, 60, 80, 0), folded(60 + gap, 110, 80, 0), folded(20, 60, 40, 0),
+                                 turned(folded(20, 60, 60 + gap, 0))},
+                                pixel_camera(120, 100), kCreases, 120, 100);
+        const FoundLines lines = scene.found();
+        const double expected = std::min(gap - 0.5, static_cast<double>(kFarthestGapPx));
+        const auto [ahead, onward] = gaps_from(lines, {20, 20});
+        EXPECT_NEAR(static_cast<double>(ahead), expected, 0.02) << gap;
+        EXPECT_NEAR(static_cast<double>(onward), expected, 0.02) << gap;
+        const auto [across, onward_across] = gaps_from(lines, {20, 60});
+        EXPECT_NEAR(static_cast<double>(across), expected, 0.02) << gap;
+        EXPECT_EQ(onward_across, kFarthestGapPx) << gap;
+    }
+}
+
+TEST_P(Runs, OfContoursHaveTheSurfaceOnTheirLeft) {
+    const ShadedScene scene = random_scene(GetParam(), kAll);
+    const LineRuns runs = scene.found().runs;
+    for (const LineRun& run : runs.runs) {
+        if (run.chain_place != 0) continue;
+        double on_left = 0;
+        for (const RunPiece& p : runs.pieces_of(run)) {
+            if (p.piece.occludes) on_left += (p.piece.front_on_left ? 1 : -1) * glm::distance(p.piece.from, p.piece.to);
+        }
+        EXPECT_GE(on_left, 0) << "seed " << GetParam();
+    }
+}
+
 }  // namespace
 }  // namespace burin

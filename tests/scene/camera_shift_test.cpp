@@ -1,4 +1,4 @@
-// Cameras whose lens is shifted, and views from points of a lens.
+// Cameras whose lens is shifted, or whose pixels are not square, and views from points of a lens.
 
 #include <gtest/gtest.h>
 
@@ -125,6 +125,58 @@ TEST(CameraShift, ATargetStaysOnTheAxis) {
     }
     EXPECT_GT(refused, 10);
     EXPECT_LT(refused, 300);
+}
+
+TEST(PixelAspect, WiderPixelsShowMoreToTheSides) {
+    CameraSettings settings;
+    settings.eye = glm::dvec3(0, 0, 5);
+    settings.target = glm::dvec3(0);
+    settings.fov_deg = 90;
+    settings.height = 10;
+    settings.shift = {0.25, 0};
+    settings.pixel_aspect = 2;
+    for (const bool orthographic : {false, true}) {
+        settings.orthographic = orthographic;
+        const Camera camera = resolve_camera(
+            settings, [](const auto&) {}, kAspect);
+        // A shift by a quarter of the height, 200 rows, is 100 columns.
+        EXPECT_NEAR(glm::distance(pixel_of(camera, {0, 0, 0}), {500, 400}), 0, 1e-9);
+        EXPECT_NEAR(glm::distance(pixel_of(camera, {1, 1, 0}), {540, 320}), 0, 1e-9);
+        const Projection p = camera.projection(kWidth, kHeight, 0);
+        glm::dvec3 origin, ray;
+        p.view_ray({540, 320}, origin, ray);
+        EXPECT_NEAR(glm::distance(origin + 5.0 * ray, {1, 1, -5}), 0, 1e-9);
+        const glm::dvec3 place = p.homogeneous({1, 1, -5});
+        EXPECT_NEAR(glm::distance(glm::dvec2(place) / place.z, {540, 320}), 0, 1e-9);
+    }
+}
+
+TEST(PixelAspect, AFittedSceneFillsThePictureAllTheSame) {
+    for (int trial = 0; trial < 200; ++trial) {
+        Random random(static_cast<std::uint64_t>(trial));
+        const auto points = random_points(random);
+        CameraSettings settings = random_settings(random, trial % 2 == 1);
+        settings.fov_deg = random.real(10, 40);
+        settings.pixel_aspect = std::exp2(random.real(-2, 2));
+        const Extent e = extent_of(resolve_camera(settings, source(points), kAspect), points);
+        ASSERT_NEAR(std::max({e.high.x, e.high.y, -e.low.x, -e.low.y}), settings.fit, 1e-6) << trial;
+        settings.shift = {};
+        settings.target = points[0];
+        const Extent around = extent_of(resolve_camera(settings, source(points), kAspect), points);
+        ASSERT_LE(std::max({around.high.x, around.high.y, -around.low.x, -around.low.y}), settings.fit + 1e-6) << trial;
+    }
+}
+
+TEST(PixelAspect, MustBeReasonable) {
+    CameraSettings settings;
+    settings.eye = glm::dvec3(0, 0, 5);
+    for (const double bad : {0.0, -1.0, 0.09, 10.5, std::numeric_limits<double>::infinity(), std::nan("")}) {
+        settings.pixel_aspect = bad;
+        EXPECT_THROW(resolve_camera(
+                         settings, [](const auto&) {}, kAspect),
+                     InputError)
+            << bad;
+    }
 }
 
 TEST(CameraLens, ThePlaneInFocusStandsStill) {

@@ -1,0 +1,46 @@
+"""Cameras of Blender as fields of burin_view. All follow from the projection matrix, so no case of sensor fit is left."""
+
+import math
+
+from .core import BurinError
+
+
+def lens_of_projection(projection, is_orthographic):
+    """Field of view or height, and shift, of a projection matrix of Blender's: what the picture's middle is off the
+    axis is in column 2 of a perspective one, and in column 3 of an orthographic one."""
+    p = projection
+    wider = p[1][1] / p[0][0]  # the picture's width by its height, in the world
+    if is_orthographic:
+        return {"ortho_height": 2 / p[1][1], "shift": (-p[0][3] * wider / 2, -p[1][3] / 2)}
+    return {"fov_deg": math.degrees(2 * math.atan(1 / p[1][1])), "shift": (p[0][2] * wider / 2, p[1][2] / 2)}
+
+
+def numbers_of(matrix):
+    """The 16 numbers of a matrix, row by row."""
+    return tuple(float(x) for row in matrix for x in row)
+
+
+def view_of_camera(camera_object, depsgraph, width, height):
+    """What the render of a camera object shows: fields of burin_view. The crop is the caller's."""
+    camera = camera_object.evaluated_get(depsgraph)
+    if camera.type != "CAMERA":
+        raise BurinError(f"{camera.name} is no camera")
+    if camera.data.type == "PANO":
+        raise BurinError(f"camera {camera.name} is panoramic; Burin draws perspective and orthographic ones")
+    render = depsgraph.scene.render
+    aspect_x, aspect_y = render.pixel_aspect_x, render.pixel_aspect_y
+    projection = camera.calc_matrix_camera(depsgraph, x=width, y=height, scale_x=aspect_x, scale_y=aspect_y)
+    view = {"width": width, "height": height, "camera_to_world": numbers_of(camera.matrix_world.normalized())}
+    view.update(lens_of_projection(projection, camera.data.type == "ORTHO"))
+    if aspect_x != aspect_y:
+        view["pixel_aspect"] = aspect_x / aspect_y
+    return view
+
+
+def view_of_region(region, region_data):
+    """What a 3D viewport shows: fields of burin_view."""
+    view = {"width": region.width, "height": region.height,
+            "camera_to_world": numbers_of(region_data.view_matrix.inverted().normalized())}
+    # A viewport that looks through a camera is perspective or not as the camera is: the last row of the matrix tells.
+    view.update(lens_of_projection(region_data.window_matrix, region_data.window_matrix[3][3] == 1))
+    return view

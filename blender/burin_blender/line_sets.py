@@ -1,0 +1,28 @@
+"""Which style sheet a view layer is drawn with, and what of Freestyle's settings is not in it."""
+
+from . import panel_look, sheets
+from .freestyle_sheet import FreestyleSheet
+
+
+def sheet_text(scene, view_layer):
+    """The sheet as burin_set_style() takes it: that of the line sets, the one that was chosen, or one that says what
+    the panels say where plain settings cannot; None: plain settings do."""
+    settings = scene.burin
+    if settings.use_line_sets:
+        return FreestyleSheet(scene, view_layer).sheet.text()
+    if settings.sheet.source != "NONE":
+        return sheets.sheet_of(settings.sheet)
+    return panel_look.sheet_text(scene)
+
+
+def not_drawn(scene, view_layer):
+    """What of Freestyle's settings is not drawn as they say, each thing once."""
+    notes = []
+    if scene.render.use_freestyle:
+        notes.append("Freestyle itself is on as well, and draws its strokes over the picture; switch it off in the "
+                     "render properties")
+    if scene.burin.use_line_sets:
+        notes += FreestyleSheet(scene, view_layer).notes
+    elif scene.burin.sheet.source != "NONE":
+        notes += sheets.not_drawn(scene)
+    return list(dict.fromkeys(notes))

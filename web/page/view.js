@@ -1,0 +1,294 @@
+// The page: mouse, fingers and keys turn the scene, the panel changes its look, and the address keeps both.
+import {Connection} from "./connection.js";
+import {Orbit} from "./orbit.js";
+import {Panel} from "./panel.js";
+import {SceneView} from "./scene_view.js";
+
+const $ = selector => document.querySelector(selector);
+const canvas = $("#picture");
+const orbit = new Orbit();
+let panel = null, view = null, toastTimer = 0, addressTimer = 0;
+
+function toast(text, isFault = false) {
+  $("#toast").textContent = text;
+  $("#toast").classList.toggle("fault-toast", isFault);
+  $("#toast").hidden = false;
+  clearTimeout(toastTimer);
+  toastTimer = setTimeout(() => { $("#toast").hidden = true; }, isFault ? 9000 : 3500);
+}
+
+// ---- the address keeps the view and what of the look is not as the scene has it ----
+
+const longestSheetInAddress = 20000;
+const listed = numbers => numbers.join(",");
+
+function writeAddress() {
+  const camera = orbit.camera(), first = panel.hello.look, {look} = panel;
+  const parts = [["eye", listed(camera.eye)], ["target", listed(camera.target)], ["up", listed(camera.up)]];
+  parts.push(camera.height === undefined ? ["fov", camera.fov] : ["height", camera.height]);
+  for (const key of ["crease_angle", "width", "hidden", "shading", "style"])
+    if (look[key] !== first[key]) parts.push([key, look[key]]);
+  if (listed(look.lines) !== listed(first.lines)) parts.push(["lines", listed(look.lines)]);
+  for (const [name, text] of Object.entries(look.parameters)) parts.push([`set.${name}`, text]);
+  if (look.sheet && look.sheet.length <= longestSheetInAddress) parts.push(["sheet", look.sheet]);
+  const text = parts.map(([key, value]) => `${key}=${encodeURIComponent(value).replaceAll("%2C", ",")}`).join("&");
+  history.replaceState(null, "", "#" + text);
+}
+
+function addressChanges() {
+  clearTimeout(addressTimer);
+  addressTimer = setTimeout(writeAddress, 200);
+}
+
+/** What the address says: a view and a part of a look; null where it says nothing that makes sense. */
+function readAddress() {
+  const address = new URLSearchParams(location.hash.slice(1).replaceAll("+", "%2B"));
+  const vector = key => (address.get(key) ?? "").split(",").map(Number);
+  const isVector = v => v.length === 3 && v.every(Number.isFinite);
+  const look = {};
+  for (const key of ["hidden", "shading", "style", "sheet"]) if (address.has(key)) look[key] = address.get(key);
+  for (const key of ["crease_angle", "width"])
+    if (address.has(key) && Number.isFinite(Number(address.get(key)))) look[key] = Number(address.get(key));
+  if (address.has("lines")) look.lines = address.get("lines").split(",").filter(Boolean);
+  const changes = [...address].filter(([key]) => key.startsWith("set."));
+  if (changes.length || look.style !== undefined)
+    look.parameters = Object.fromEntries(changes.map(([key, value]) => [key.slice(4), value]));
+  const camera = {eye: vector("eye"), target: vector("target"), up: vector("up"), fov: Number(address.get("fov") ?? 35),
+                  height: address.has("height") ? Number(address.get("height")) : null};
+  const isView = [camera.eye, camera.target, camera.up].every(isVector) && camera.fov > 0 && camera.fov < 180 &&
+    (camera.height === null || camera.height > 0);
+  return {camera: isView ? camera : null, look: Object.keys(look).length ? look : null};
+}
+
+// ---- what changes the view ----
+
+function viewChanged() {
+  $("#mark").hidden = true;
+  $("#projection").textContent = orbit.isOrthographic ? "Parallel" : "Perspective";
+  view.viewChanged();
+  addressChanges();
+}
+
+async function takeView(kind) {
+  const answer = await view.connection.request(kind === "home" ? {kind, size: view.size} : view.message(kind));
+  if (answer.kind === "error") return toast(answer.message, true);
+  orbit.take(answer);
+  viewChanged();
+}
+
+function toggleProjection() {
+  orbit.isOrthographic = !orbit.isOrthographic;
+  viewChanged();
+}
+
+const turnPerPixel = 0.008;
+const quarter = Math.PI / 2;
+const standardViews = [[0, 0], [quarter, 0], [2 * quarter, 0], [-quarter, 0], [0, quarter], [0, -quarter]];
+
+/** A place on the canvas, in parts of its height from its middle. */
+function fromMiddle(x, y) {
+  const box = canvas.getBoundingClientRect();
+  return [(x - box.left - box.width / 2) / box.height, (y - box.top - box.height / 2) / box.height];
+}
+
+function listenToPointers() {
+  const pointers = new Map();
+  let way = 0, isClick = false;
+  const middle = () => {
+    const all = [...pointers.values()];
+    return {x: all.reduce((t, p) => t + p.x, 0) / all.length, y: all.reduce((t, p) => t + p.y, 0) / all.length,
+            spread: all.length > 1 ? Math.hypot(all[0].x - all[1].x, all[0].y - all[1].y) : 0};
+  };
+  canvas.onpointerdown = event => {
+    canvas.setPointerCapture(event.pointerId);
+    pointers.set(event.pointerId, {x: event.clientX, y: event.clientY});
+    isClick = pointers.size === 1 && event.button === 0 && !event.shiftKey;
+    way = 0;
+  };
+  canvas.onpointermove = event => {
+    const pointer = pointers.get(event.pointerId);
+    if (!pointer) return;
+    const before = middle();
+    Object.assign(pointer, {x: event.clientX, y: event.clientY});
+    const now = middle(), dx = now.x - before.x, dy = now.y - before.y;
+    way += Math.abs(event.movementX) + Math.abs(event.movementY);
+    if (way > 3 || pointers.size > 1) isClick = false;
+    else return;
+    const height = canvas.clientHeight;
+    const moves = pointers.size > 1 || event.shiftKey || (event.buttons & 6) !== 0;
+    if (moves) orbit.pan(dx / height, dy / height);
+    else orbit.turn(dx * turnPerPixel, dy * turnPerPixel);
+    if (pointers.size > 1 && before.spread > 0 && now.spread > 0)
+      orbit.zoom(before.spread / now.spread, ...fromMiddle(now.x, now.y));
+    viewChanged();
+  };
+  canvas.onpointerup = canvas.onpointercancel = event => {
+    pointers.delete(event.pointerId);
+    if (isClick && event.type === "pointerup") explain(event.clientX, event.clientY);
+    isClick = false;
+  };
+  canvas.oncontextmenu = event => event.preventDefault();
+  canvas.addEventListener("wheel", event => {
+    event.preventDefault();
+    const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1;
+    const speed = event.ctrlKey ? 0.01 : 0.0012;
+    orbit.zoom(Math.exp(Math.max(-1, Math.min(1, event.deltaY * lines * speed))), ...fromMiddle(event.clientX, event.clientY));
+    viewChanged();
+  }, {passive: false});
+}
+
+function listenToKeys() {
+  const step = 0.12, part = 0.06;
+  const arrows = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
+  const hidden = ["none", "dashed", "solid"];
+  document.addEventListener("keydown", event => {
+    if (event.ctrlKey || event.metaKey || event.altKey || $("#help").open) return;
+    const isControl = event.target.matches("input, select, textarea, #panel button");
+    const arrow = arrows[event.key];
+    if (arrow && isControl) return;
+    const key = event.key.toLowerCase();
+    if (arrow && event.shiftKey) orbit.pan(-arrow[0] * part, -arrow[1] * part);
+    else if (arrow) orbit.turn(arrow[0] * step, arrow[1] * step);
+    else if (event.target.matches("textarea, input[type=number], select")) return;
+    else if (key === "+" || key === "=") orbit.zoom(1 / 1.15);
+    else if (key === "-") orbit.zoom(1.15);
+    else if (key >= "1" && key <= "6") orbit.look(...standardViews[Number(key) - 1]);
+    else {
+      const actions = {
+        f: () => takeView("fit"), "0": () => takeView("fit"), home: () => takeView("home"), p: toggleProjection,
+        h: () => panel.hasSheet() || panel.change({hidden: hidden[(hidden.indexOf(panel.look.hidden) + 1) % 3]}),
+        e: () => panel.hasSheet() && panel.toggleEditor(), s: togglePanel, "?": () => $("#help").showModal(),
+        escape: closeExplained,
+      };
+      if (!actions[key]) return;
+      event.preventDefault();
+      return void actions[key]();
+    }
+    event.preventDefault();
+    viewChanged();
+  });
+}
+
+function togglePanel() {
+  const isHidden = document.body.classList.toggle("no-panel");
+  $("#panel-switch").setAttribute("aria-expanded", !isHidden);
+}
+
+// ---- what is asked of the picture ----
+
+async function explain(clientX, clientY) {
+  const box = canvas.getBoundingClientRect(), message = view.message("explain");
+  const [width, height] = message.size;
+  const inside = (part, whole) => Math.max(0, Math.min(whole - 1, Math.floor(part * whole)));
+  message.x = inside((clientX - box.left) / box.width, width);
+  message.y = inside((clientY - box.top) / box.height, height);
+  const {camera, ...rest} = message;
+  $("#mark").style.left = (message.x + 0.5) / width * box.width + "px";
+  $("#mark").style.top = (message.y + 0.5) / height * box.height + "px";
+  $("#mark").hidden = false;
+  const answer = await view.connection.request({...rest, camera});
+  if (answer.kind === "error") return toast(answer.message, true);
+  $("#explained h2").textContent = `pixel ${message.x}, ${message.y}`;
+  $("#explained-lines").textContent = answer.lines.trim();
+  $("#explained-fragments").textContent = answer.fragments.trim();
+  $("#explained").hidden = false;
+}
+
+function closeExplained() {
+  $("#explained").hidden = true;
+  $("#mark").hidden = true;
+}
+
+async function save(format) {
+  $("#saved").textContent = `making ${format.toUpperCase()} …`;
+  const answer = await view.connection.request(view.message("save", {format}));
+  if (answer.kind === "error") {
+    $("#saved").textContent = "";
+    return toast(answer.message, true);
+  }
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([answer.bytes], {type: answer.type}));
+  link.download = answer.name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+  $("#saved").textContent = [`${answer.name} is saved by your browser`, ...answer.notes].join("; ");
+}
+
+async function copyCommand() {
+  const answer = await view.connection.request(view.message("command"));
+  if (answer.kind === "error") return toast(answer.message, true);
+  document.body.dataset.command = answer.command;
+  try {
+    await navigator.clipboard.writeText(answer.command);
+    $("#saved").textContent = answer.needs_scene ? "Copied; save the scene first, which it draws." : "Copied: " + answer.command;
+  } catch {
+    $("#saved").textContent = answer.command;
+  }
+}
+
+// ---- the beginning ----
+
+function lookChanged(look) {
+  view.lookChanged(look);
+  addressChanges();
+}
+
+function shown(frame) {
+  $("#wait").hidden = true;
+  const data = document.body.dataset;
+  data.frames = Number(data.frames ?? 0) + 1;
+  data.quality = frame.full ? "full" : "preview";
+  $("#time").textContent = `${frame.width} × ${frame.height} · drawn in ${frame.draw_ms.toFixed(0)} ms` + (frame.full ? "" : " · preview");
+}
+
+function showNotes(notes) {
+  $("#notes").hidden = notes.length === 0;
+  $("#notes ul").replaceChildren(...notes.map(note => Object.assign(document.createElement("li"), {textContent: note})));
+}
+
+async function begin(connection, hello) {
+  document.title = `${hello.name} – burin view`;
+  $("#name").textContent = hello.name;
+  panel = new Panel(hello, lookChanged);
+  view = new SceneView(canvas, connection, orbit, {
+    onShown: shown,
+    onFailed: answer => panel.showFault(answer) || toast(answer.message, true),
+    onLook: sheet => panel.takeSheet(sheet),
+  });
+  showNotes(hello.notes);
+  const {camera, look} = readAddress();
+  if (look) {
+    panel.restore(look);
+    view.look = panel.look;
+    view.lookWaits = true;
+  }
+  if (camera) {
+    orbit.take(camera);
+    viewChanged();
+  } else {
+    await takeView("home");
+  }
+  listenToPointers();
+  listenToKeys();
+  new ResizeObserver(() => view.viewChanged()).observe($("#paper"));
+  document.body.dataset.ready = "yes";
+}
+
+for (const format of ["png", "svg", "toml"]) $(`#save-${format}`).onclick = () => save(format);
+$("#copy").onclick = copyCommand;
+$("#fit").onclick = () => takeView("fit");
+$("#home").onclick = () => takeView("home");
+$("#projection").onclick = toggleProjection;
+$("#panel-switch").onclick = togglePanel;
+$("#help-button").onclick = () => $("#help").showModal();
+$("#explained .close").onclick = closeExplained;
+
+const connection = new Connection(answer => {
+  if (answer.kind === "hello") begin(connection, answer);
+  else if (!view?.take(answer) && answer.kind === "error") toast(answer.message, true);
+}, () => {
+  document.body.dataset.ended = "yes";
+  $("#wait").hidden = true;
+  toast("burin view has ended; start it again and reload its new address", true);
+  clearTimeout(toastTimer);
+});
