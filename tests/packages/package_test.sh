@@ -33,12 +33,10 @@ here "$1" man burin-render | grep -q -- --crease-angle || fail "man burin-render
 here "$1" man -w burin >/dev/null || fail "man burin"
 [ "$(here "$1" bash /tmp/packages/bash_completion.sh /usr/share/bash-completion/completions/burin 'burin render --cr' | paste -sd' ')" = '--crease-angle --crop' ] || fail "completion"
 [ -f "$1/root/usr/share/zsh/vendor-completions/_burin" ] || fail "completion for zsh"
-if [ -d "$2/blender/burin_blender" ]; then
-    here "$1" blender -b --factory-startup --addons burin_blender --python-exit-code 3 --python-expr '
+here "$1" blender -b --factory-startup --addons burin_blender --python-exit-code 3 --python-expr '
 import addon_utils, burin_blender
 print("add-on", burin_blender.__file__, addon_utils.check("burin_blender"))' >"$1/log" 2>&1 || { cat "$1/log" >&2; fail "Blender"; }
-    grep -q "^add-on /usr/share/blender/scripts/addons/burin_blender/__init__.py (.*, True)" "$1/log" || { cat "$1/log" >&2; fail "Blender does not load the add-on"; }
-fi
+grep -q "^add-on /usr/share/blender/scripts/addons/burin_blender/__init__.py (.*, True)" "$1/log" || { cat "$1/log" >&2; fail "Blender does not load the add-on"; }
 here "$1" dpkg --purge burin libburin0 libburin-dev python3-burin blender-burin >"$1/log" 2>&1 || { cat "$1/log" >&2; fail "they cannot be removed"; }
 left=$(find "$1/layer/upper/usr" -path '*burin*' -not -type c)
 [ -z "$left" ] || fail "what is left behind: $left"

@@ -56,7 +56,9 @@ def check_links(site: str, pages: dict[str, Page]) -> int:
             if url.scheme or url.netloc:
                 expect(link not in page.assets, f"{name}: {link} comes from another host")
                 continue
-            target = os.path.normpath(os.path.join(os.path.dirname(name), unquote(url.path))) if url.path else name
+            path = unquote(url.path)
+            base = "" if path.startswith("/") else os.path.dirname(name)  # the page for errors is shown at any path
+            target = os.path.normpath(os.path.join(base, path.lstrip("/"))) if path else name
             expect(os.path.isfile(os.path.join(site, target)), f"{name}: {link} leads nowhere")
             if url.fragment and target in pages:
                 expect(unquote(url.fragment) in pages[target].ids, f"{name}: {link}: there is no such heading")
