@@ -16,9 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kRoot = BURIN_SOURCE_FOLDER;
-const std::vector<std::string> kFolders = {"base",    "image",   "mesh",   "kernels", "view",    "lines",
-                                           "shading", "scene",   "render", "abuffer", "strokes", "output",
-                                           "methods", "compare", "cli",    "burin",   "bench",   "python"};
+const std::vector<std::string> kFolders = {"base",  "image",  "mesh",    "kernels", "view",   "lines",   "shading",
+                                           "scene", "render", "abuffer", "strokes", "output", "methods", "compare",
+                                           "web",   "cli",    "burin",   "bench",   "python"};
 
 std::string text_of(const fs::path& path) {
     std::ostringstream text;

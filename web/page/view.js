@@ -77,7 +77,7 @@ async function takeView(kind) {
 }
 
 function toggleProjection() {
-  orbit.isOrthographic = !orbit.isOrthographic;
+  orbit.toggleProjection();
   viewChanged();
 }
 
