@@ -290,7 +290,7 @@ ViewServer::~ViewServer() = default;
 std::string ViewServer::url() const { return inner_->gate->url(); }
 
 void ViewServer::run() {
-    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
         struct sigaction action {};
         const bool is_ignored =
             number == SIGHUP && sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
