@@ -1,5 +1,5 @@
-// Reads its input as a message of a page. Anything must end in a message whose numbers are within their bounds, or in an
-// InputError.
+// Reads its input as a message of a page. Anything must end in a message whose numbers are within their bounds, or in
+// an InputError.
 
 #include <cmath>
 #include <cstddef>

@@ -59,7 +59,8 @@ Film random_film(int width, int height, bool is_gray, std::uint32_t seed) {
             if (random.real(0, 1) < 0.2) {
                 const float alpha = static_cast<float>(random.real(0, 1));
                 for (int c = 0; c < 3; ++c)
-                    pixel.beauty[c] = is_gray && c > 0 ? pixel.beauty[0] : alpha * static_cast<float>(random.real(0, 1));
+                    pixel.beauty[c] =
+                        is_gray && c > 0 ? pixel.beauty[0] : alpha * static_cast<float>(random.real(0, 1));
                 pixel.beauty[3] = alpha;
             }
             film.put(x, y, pixel);
@@ -121,7 +122,8 @@ TEST(PicturesForPages, QoiHoldsEveryChange) {
             const int reach = what < 0.8 ? 3 : what < 0.9 ? 40 : 256;
             std::uint32_t code = 0;
             for (int c = 0; c < 3; ++c) {
-                const int part = static_cast<int>(last >> 8 * c & 0xFF) + static_cast<int>(random.real(0, 1) * reach) - reach / 2;
+                const int part =
+                    static_cast<int>(last >> 8 * c & 0xFF) + static_cast<int>(random.real(0, 1) * reach) - reach / 2;
                 code |= static_cast<std::uint32_t>(part & 0xFF) << 8 * c;
             }
             codes.push_back(code);

@@ -90,7 +90,8 @@ TEST(Protection, NothingButThePageIsServed) {
     }
     EXPECT_EQ(ask(view, get_request(view, view.path(), "Content-Length: 3\r\n") + "abc").status, 413);
     EXPECT_EQ(ask(view, get_request(view, view.path(), "Transfer-Encoding: chunked\r\n")).status, 413);
-    EXPECT_EQ(ask(view, get_request(view, view.path() + "socket", "Origin: http://" + view.host() + "\r\n")).status, 400);
+    EXPECT_EQ(ask(view, get_request(view, view.path() + "socket", "Origin: http://" + view.host() + "\r\n")).status,
+              400);
 }
 
 TEST(Protection, BrokenRequestsEndTheirConnection) {

@@ -87,8 +87,10 @@ TEST(View, FilesAreThoseOfRender) {
         "",
         look(1, "width = 3.25\nhidden = \"dashed\"\ncrease_angle = 20\nshading = \"lambert\""),
         look(1, "style = \"comic\"\nwidth = 2\n[parameters]\nwidth = \"5\"\ncolor = \"#c02040\""),
-        look(1, "style = \"technical\"\nsheet = \"style_version = 1\\n[parameters]\\nink = '#203060'\\n"
-                "[[set]]\\nname = 'a'\\nclasses = ['silhouette', 'crease']\\nstyle = 's'\\n[style.s]\\nwidth = 3\\ncolor = '=ink'\\n\""),
+        look(1,
+             "style = \"technical\"\nsheet = \"style_version = 1\\n[parameters]\\nink = '#203060'\\n"
+             "[[set]]\\nname = 'a'\\nclasses = ['silhouette', 'crease']\\nstyle = 's'\\n[style.s]\\nwidth = 3\\ncolor "
+             "= '=ink'\\n\""),
     };
     for (const std::string& change : looks) {
         Viewed viewed;
@@ -177,7 +179,8 @@ TEST(View, WrongMessagesAreAnsweredAndChangeNothing) {
     const std::string no_view =
         "kind = \"draw\"\nnumber = 2\nsize = [64, 48]\n[camera]\neye = [0, 0, 0]\ntarget = [0, 0, 0]\nup = [0, 1, 0]\n";
     const std::string nan_view =
-        "kind = \"draw\"\nnumber = 2\nsize = [64, 48]\n[camera]\neye = [nan, 0, 0]\ntarget = [0, 0, 0]\nup = [0, 1, 0]\n";
+        "kind = \"draw\"\nnumber = 2\nsize = [64, 48]\n[camera]\neye = [nan, 0, 0]\ntarget = [0, 0, 0]\nup = [0, 1, "
+        "0]\n";
     const std::string wrong[] = {"",
                                  "kind = \"dance\"",
                                  view_along_up,
@@ -198,7 +201,8 @@ TEST(View, WrongMessagesAreAnsweredAndChangeNothing) {
 TEST(View, FaultsOfASheetHaveTheirPlace) {
     Viewed viewed;
     PageSocket page(*viewed.view);
-    const std::string begin = "style_version = 1\\n[[set]]\\nname = 'a'\\nclasses = ['silhouette']\\nstyle = 's'\\n[style.s]\\n";
+    const std::string begin =
+        "style_version = 1\\n[[set]]\\nname = 'a'\\nclasses = ['silhouette']\\nstyle = 's'\\n[style.s]\\n";
     // What is no sheet is told at once; what is wrong in an expression, when it is drawn.
     page.send_text(look(1, "sheet = \"" + begin + "widht = 3\\n\""));
     Json fault = Json::parse(page.receive("error", 1)->text);
@@ -252,7 +256,8 @@ TEST(View, AClosedPageLeavesNothingRunning) {
 TEST(View, ATakenPortIsNamed) {
     Viewed viewed;
     const std::string port = std::to_string(viewed.view->port());
-    const ProgramResult second = run_burin(viewed.folder.path(), {"view", "scene.toml", "--no-browser", "--port", port});
+    const ProgramResult second =
+        run_burin(viewed.folder.path(), {"view", "scene.toml", "--no-browser", "--port", port});
     EXPECT_EQ(second.status, 1);
     EXPECT_EQ(second.out, "");
     EXPECT_EQ(second.err, "127.0.0.1:" + port + ": the port is in use; give another --port, or none for a free one\n");
@@ -298,7 +303,8 @@ TEST(View, ASceneWithoutACameraIsFitted) {
 TEST(View, TheBrowserIsOpenedWhereThereIsADesktop) {
     TemporaryFolder folder;
     folder.write("scene.toml", kScene);
-    folder.write("xdg-open", "#!/bin/sh\necho \"$1\" > opened.part; mv opened.part opened; echo noise; echo noise >&2\n");
+    folder.write("xdg-open",
+                 "#!/bin/sh\necho \"$1\" > opened.part; mv opened.part opened; echo noise; echo noise >&2\n");
     ::chmod(folder.file("xdg-open").c_str(), 0755);
     const char* const old_path = std::getenv("PATH");
     const std::string path = folder.path() + ":" + (old_path != nullptr ? old_path : "");

@@ -32,8 +32,9 @@ SceneDescription read_back(const TemporaryFolder& folder, const std::string& tex
 
 TEST(ViewedTables, NumbersComeBackToTheBit) {
     const TemporaryFolder folder;
-    folder.write("a.toml", "[[object]]\nfile = \"models/a.obj\"\n[[camera]]\nshift = [0.1, 0.2]\nlens_radius = 2\n"
-                           "[shutter]\n[picture]\npaper = \"A4\"\nscale = \"1:3\"\nbackground = \"#204060\"\n");
+    folder.write("a.toml",
+                 "[[object]]\nfile = \"models/a.obj\"\n[[camera]]\nshift = [0.1, 0.2]\nlens_radius = 2\n"
+                 "[shutter]\n[picture]\npaper = \"A4\"\nscale = \"1:3\"\nbackground = \"#204060\"\n");
     const ViewedTables tables({folder.file("a.toml"), "", {}});
     const SceneDescription back = read_back(folder, tables.scene_text(tables.first_look(), some_view()));
     ASSERT_EQ(back.cameras.size(), 1u);
@@ -51,7 +52,9 @@ TEST(ViewedTables, NumbersComeBackToTheBit) {
 
 TEST(ViewedTables, OnlyWhatChangesIsWritten) {
     const TemporaryFolder folder;
-    folder.write("a.toml", "[[object]]\nshape = \"box\"\n[lines]\ncrease_angle = [30, 50]\n[lines.hidden]\ncolor = \"#ff0000\"\n");
+    folder.write(
+        "a.toml",
+        "[[object]]\nshape = \"box\"\n[lines]\ncrease_angle = [30, 50]\n[lines.hidden]\ncolor = \"#ff0000\"\n");
     const ViewedTables tables({folder.file("a.toml"), "", {}});
     Look look = tables.first_look();
     look.hidden = HiddenStyle::solid;
@@ -71,8 +74,9 @@ TEST(ViewedTables, OnlyWhatChangesIsWritten) {
 
 TEST(ViewedTables, SheetsOfTheSceneCanBeLeft) {
     const TemporaryFolder folder;
-    folder.write("mine.toml", "style_version = 1\n[parameters]\nw = { value = 2, min = 0, max = 9 }  # wide\n"
-                              "[[set]]\nname = \"a\"\nclasses = [\"crease\"]\nstyle = \"s\"\n[style.s]\nwidth = \"=w\"\n");
+    folder.write("mine.toml",
+                 "style_version = 1\n[parameters]\nw = { value = 2, min = 0, max = 9 }  # wide\n"
+                 "[[set]]\nname = \"a\"\nclasses = [\"crease\"]\nstyle = \"s\"\n[style.s]\nwidth = \"=w\"\n");
     folder.write("a.toml", "style = \"mine.toml\"\n[[object]]\nshape = \"box\"\n");
     const ViewedTables tables({folder.file("a.toml"), "", {}});
     Look look = tables.first_look();
@@ -93,8 +97,10 @@ TEST(ViewedTables, SheetsOfTheSceneCanBeLeft) {
 
 TEST(SheetValues, ChangeNothingElse) {
     const std::string sheet =
-        "style_version = 1\n# größe: ähnlich\n[parameters]\nwidth = 3  # ünits\nink = \"#ff0000\"\nlong = { min = 0, value = 1e2 }\n"
-        "[[set]]\nname = \"a\"\nclasses = [\"crease\"]\nstyle = \"s\"\n[style.s]\nwidth = \"=width * long\"\ncolor = \"=ink\"\n";
+        "style_version = 1\n# größe: ähnlich\n[parameters]\nwidth = 3  # ünits\nink = \"#ff0000\"\nlong = { min = 0, "
+        "value = 1e2 }\n"
+        "[[set]]\nname = \"a\"\nclasses = [\"crease\"]\nstyle = \"s\"\n[style.s]\nwidth = \"=width * long\"\ncolor = "
+        "\"=ink\"\n";
     std::string wanted = sheet;
     wanted.replace(wanted.find("width = 3"), 9, "width = 12");
     EXPECT_EQ(sheet_with_values(sheet, {{"width", "12"}}), wanted);
