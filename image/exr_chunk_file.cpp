@@ -140,8 +140,9 @@ class ExrChunkFile::Library {
         const exr_attr_v2f_t center = {options.screen_window_center[0], options.screen_window_center[1]};
         int part = 0;
         check(exr_add_part(context_, name, storage, &part));
-        check(exr_initialize_required_attr(context_, part, &display, &data, options.pixel_aspect, &center, options.screen_window_width,
-                                           EXR_LINEORDER_INCREASING_Y, exr_compression(options.compression)));
+        check(exr_initialize_required_attr(context_, part, &display, &data, options.pixel_aspect, &center,
+                                           options.screen_window_width, EXR_LINEORDER_INCREASING_Y,
+                                           exr_compression(options.compression)));
         return part;
     }
     void add_channel(int part, const ChannelFormat& channel) {
