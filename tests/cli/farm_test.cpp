@@ -142,11 +142,13 @@ TEST(Submit, BandsAreTasksOfTheirOwn) {
         EXPECT_NE(result.out.find(part), std::string::npos) << part << "\n" << result.out;
     folder.write("scripts.sh", result.out);
     EXPECT_EQ(std::system(("sh -n '" + folder.file("scripts.sh") + "'").c_str()), 0);
-    const ProgramResult deep = run_burin(folder.path(), {"submit", "shot.toml", "-r", "64x70", "-o", "a.##.exr", "--deep",
-                                                         "d.##.exr", "-f", "1-3", "--bands", "2", "--dry-run"});
-    for (const char* part : {"set -- --crop 0,0,64,32 -o 'a.##.band1.exr' --deep 'd.##.band1.exr' ;;",
-                             "join a.02.exr a.02.band1.exr a.02.band2.exr\n",
-                             "join d.02.exr d.02.band1.exr d.02.band2.exr\n", "-f 1-3 -o 'a.##.exr' --deep 'd.##.exr' -q"})
+    const ProgramResult deep =
+        run_burin(folder.path(), {"submit", "shot.toml", "-r", "64x70", "-o", "a.##.exr", "--deep", "d.##.exr", "-f",
+                                  "1-3", "--bands", "2", "--dry-run"});
+    for (const char* part :
+         {"set -- --crop 0,0,64,32 -o 'a.##.band1.exr' --deep 'd.##.band1.exr' ;;",
+          "join a.02.exr a.02.band1.exr a.02.band2.exr\n", "join d.02.exr d.02.band1.exr d.02.band2.exr\n",
+          "-f 1-3 -o 'a.##.exr' --deep 'd.##.exr' -q"})
         EXPECT_NE(deep.out.find(part), std::string::npos) << part << "\n" << deep.out;
     const auto error_of = [&](const std::vector<std::string>& more) {
         return run_burin(folder.path(), joined({"submit", "shot.toml", "-r", "64x70", "--dry-run"}, more)).err;
