@@ -29,7 +29,7 @@ class LayeredSum {
     }
     /// Of the last line, which makes up for what rounding did to the others, as far as its matte bears that.
     double alpha_of_last_line(double share) {
-        constexpr double kMost = 8e-5;
+        constexpr double kMost = 1e-5;
         wanted_left_ -= share;
         if (wanted_left_ < kNothing) return 1.0;
         const double all = std::clamp(left_ - wanted_left_, share - kMost, share + kMost);

@@ -44,7 +44,8 @@ void InkMattes::find_spots(const InkTile& tile, int column, int row) {
             line.nearness = record.nearness / samples;
             InkSpot spot{&record.mask, record.color / record.alpha, std::min(record.alpha / samples, 1.0f), false,
                          record.multiplies};
-            if (record.is_plain) spot = {&record.mask, {}, plan_.looks[record.stroke].strength, true};
+            if (record.is_plain)
+                spot = {&record.mask, plan_.looks[record.stroke].color, plan_.looks[record.stroke].strength, true};
             add(record.rank, record.chain, line, spot);
             spots_.back().is_behind = lines_.strokes[record.stroke].is_behind;
         });

@@ -129,12 +129,14 @@ void check_files_of(const FramePlan& plan, double frame) {
     for (const FrameFile* file : files_of(plan)) check_output_file(file->path_of(frame));
 }
 
-std::vector<OutputFile> all_outputs(const FramePlan& plan, std::vector<OutputFile> others) {
+std::vector<OutputFile> all_outputs(const FramePlan& plan, const std::vector<OutputFile>& others) {
+    std::vector<OutputFile> all;
     for (const FrameFile* file : files_of(plan)) {
         const std::string option = file->option == "-o" ? "--output" : file->option;
-        for (const double frame : plan.frames) others.push_back({option, file->path_of(frame)});
+        for (const double frame : plan.frames) all.push_back({option, file->path_of(frame)});
     }
-    return others;
+    all.insert(all.end(), others.begin(), others.end());
+    return all;
 }
 
 void sweep_outputs(const FramePlan& plan) {

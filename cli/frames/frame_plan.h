@@ -45,8 +45,8 @@ std::vector<OutputFile> existing_outputs(const FramePlan& plan);
 /// Throws InputError if a frame's files cannot be written.
 void check_files_of(const FramePlan& plan, double frame);
 
-/// The files of all frames, and `others`.
-std::vector<OutputFile> all_outputs(const FramePlan& plan, std::vector<OutputFile> others);
+/// The files of all frames, then `others`.
+std::vector<OutputFile> all_outputs(const FramePlan& plan, const std::vector<OutputFile>& others);
 
 /// Removes temporary files of the frames' files that dead processes left behind.
 void sweep_outputs(const FramePlan& plan);

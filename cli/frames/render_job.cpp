@@ -24,9 +24,10 @@ std::vector<OutputFile> files_of_job(const Arguments& a) {
 std::vector<OutputOptions> checked_outputs(const Arguments& a, const Method& method) {
     std::vector<OutputOptions> list = output_list(a);
     check_names_of_frames(a, list);
-    std::vector<OutputFile> outputs = files_of_job(a);
+    std::vector<OutputFile> outputs;
     for (const OutputOptions& output : list) outputs.push_back({output.is_deep ? "--deep" : "--output", output.path});
     if (!a.save_lines.empty()) outputs.push_back({"--save-lines", a.save_lines});
+    for (OutputFile& file : files_of_job(a)) outputs.push_back(std::move(file));
     refuse_same_files(outputs);
     refuse_to_overwrite(outputs, {a.input});
     for (const OutputOptions& output : list) {

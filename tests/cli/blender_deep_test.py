@@ -37,12 +37,13 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         (folder / "script.py").write_text(BLENDER)
-        for more in ([], ["--hidden", "solid"], ["--set", 'surfaces.shading="lambert"', "--style", "technical"]):
+        for more in ([], ["--hidden", "solid"], ["--set", 'surfaces.shading="lambert"', "--style", "technical",
+                                                     "--hidden", "none"]):
             flat, deep = folder / "flat.exr", folder / "deep.exr"
             run(BURIN, "render", SCENES / "still_life.toml", "--deep", deep, "-q", "-r", "160x120", *more)
             plain = [] if more == ["--hidden", "solid"] else more
-            hidden = [] if "--style" in more else ["--hidden", "none"]
-            run(BURIN, "render", SCENES / "still_life.toml", "-o", flat, "-q", "-r", "160x120", *plain, *hidden)
+            run(BURIN, "render", SCENES / "still_life.toml", "-o", flat, "-q", "-r", "160x120", *plain,
+                *([] if "none" in plain else ["--hidden", "none"]))
             run("blender", "-b", "--factory-startup", "--python-exit-code", "9", "-P", folder / "script.py", "--", deep,
                 folder / "pixels")
             data = (folder / "pixels").read_bytes()

@@ -56,6 +56,7 @@ TEST(Deep, FlattensToTheBeautyByOpenExrsReader) {
          std::vector<std::vector<std::string>>{{scene_file("still_life.toml")},
                                                {scene_file("still_life.toml"), "--set", "surfaces.shading=\"lambert\""},
                                                {scene_file("still_life.toml"), "--style", "pencil"},
+                                               {scene_file("still_life.toml"), "--style", "comic"},
                                                {scene_file("still_life.toml"), "-w", "6", "--set", "deep.float=true"},
                                                {scene_file("shaded.toml")},
                                                {scene_file("cage.toml"), "-w", "0.5"},

@@ -136,11 +136,20 @@ TEST(Submit, BandsAreTasksOfTheirOwn) {
     const ProgramResult result = run_burin(folder.path(), {"submit", "shot.toml", "-r", "64x70", "-o", "it's #.exr",
                                                            "-f", "1-3", "--bands", "2", "--dry-run"});
     ASSERT_EQ(result.status, 0) << result.err;
-    for (const char* part : {"#SBATCH --array=0-1\n", "set -- --crop 0,0,64,32 ;;", "set -- --crop 0,32,64,70 ;;",
+    for (const char* part : {"#SBATCH --array=0-1\n", "set -- --crop 0,0,64,32 -o 'it'\\''s #.band1.exr' ;;",
+                             "set -- --crop 0,32,64,70 -o 'it'\\''s #.band2.exr' ;;",
                              "join 'it'\\''s 0002.exr' 'it'\\''s 0002.band1.exr' 'it'\\''s 0002.band2.exr'\n"})
         EXPECT_NE(result.out.find(part), std::string::npos) << part << "\n" << result.out;
     folder.write("scripts.sh", result.out);
     EXPECT_EQ(std::system(("sh -n '" + folder.file("scripts.sh") + "'").c_str()), 0);
+    const ProgramResult deep =
+        run_burin(folder.path(), {"submit", "shot.toml", "-r", "64x70", "-o", "a.##.exr", "--deep", "d.##.exr", "-f",
+                                  "1-3", "--bands", "2", "--dry-run"});
+    for (const char* part :
+         {"set -- --crop 0,0,64,32 -o 'a.##.band1.exr' --deep 'd.##.band1.exr' ;;",
+          "join a.02.exr a.02.band1.exr a.02.band2.exr\n", "join d.02.exr d.02.band1.exr d.02.band2.exr\n",
+          "-f 1-3 -o 'a.##.exr' --deep 'd.##.exr' -q"})
+        EXPECT_NE(deep.out.find(part), std::string::npos) << part << "\n" << deep.out;
     const auto error_of = [&](const std::vector<std::string>& more) {
         return run_burin(folder.path(), joined({"submit", "shot.toml", "-r", "64x70", "--dry-run"}, more)).err;
     };
