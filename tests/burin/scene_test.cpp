@@ -253,8 +253,9 @@ TEST(LibraryScene, WhatReadersLeaveOutIsNoted) {
 }
 
 TEST(LibraryScene, WhatMovesIsShownAtRestAndSaysSo) {
-    const std::string box = "[[object]]\nshape = \"box\"\n", keys = "[[object.key]]\nframe = 1\ntranslate = [0, 0, 0]\n"
-                                                               "[[object.key]]\nframe = 5\ntranslate = [3, 0, 0]\n";
+    const std::string box = "[[object]]\nshape = \"box\"\n", keys =
+                                                                 "[[object.key]]\nframe = 1\ntranslate = [0, 0, 0]\n"
+                                                                 "[[object.key]]\nframe = 5\ntranslate = [3, 0, 0]\n";
     Scene still, moving;
     still.add_text(box);
     moving.add_text(box + keys);
