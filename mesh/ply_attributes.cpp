@@ -107,4 +107,21 @@ void PlyCornerUv::move_to(PolygonSoup& soup) {
     soup.attributes.push_back(std::move(layer_));
 }
 
+void PlyFaceMaterials::move_to(PolygonSoup& soup) {
+    if (of_polygon_.empty()) return;
+    of_polygon_.resize(soup.polygon_count(), kNone);
+    std::vector<std::uint32_t> used = of_polygon_;
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (const std::uint32_t index : used) {
+        Material material;
+        if (index != kNone) material.name = "material_" + std::to_string(index);
+        soup.materials.push_back(std::move(material));
+    }
+    if (used.size() == 1) return;
+    for (std::uint32_t& index : of_polygon_)
+        index = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), index) - used.begin());
+    soup.polygon_material = std::move(of_polygon_);
+}
+
 }  // namespace burin

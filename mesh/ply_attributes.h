@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,25 @@ class PlyCornerUv {
   private:
     AttributeLayer layer_{AttributeKind::uv, {}, {}, {}};
     std::vector<float> face_;
+};
+
+/// PlyFaceMaterials collects which material each face has, by the property material_index.
+class PlyFaceMaterials {
+  public:
+    static constexpr double kLargest = 0x7FFFFFFF;
+
+    static bool is_index(const PlyProperty& property) { return !property.is_list && property.name == "material_index"; }
+    /// Of the next polygon. `polygons`: how many are before it; those without a material get one of their own.
+    void add(std::uint64_t polygons, std::uint32_t index) {
+        of_polygon_.resize(polygons, kNone);
+        of_polygon_.push_back(index);
+    }
+    /// Gives the soup a material for each number that there is, in ascending order, named material_NUMBER.
+    void move_to(PolygonSoup& soup);
+
+  private:
+    static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+    std::vector<std::uint32_t> of_polygon_;
 };
 
 }  // namespace burin

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -97,6 +99,7 @@ class PlyBodyReader {
         }
         check_references();
         corner_uv_.move_to(soup_);
+        materials_.move_to(soup_);
         return std::move(soup_);
     }
 
@@ -318,10 +321,16 @@ class PlyBodyReader {
             poll();
             if (all_triangles) read_plain_triangles(element);
             if (item_ == element.count) break;
+            const std::uint64_t polygons = soup_.polygon_count();
+            std::optional<std::uint32_t> material;
             for (std::size_t i = 0; i < element.properties.size(); ++i) {
                 const PlyProperty& property = element.properties[i];
                 if (wish_.uv && PlyCornerUv::is_list_of(property)) {
                     read_corner_uv(property);
+                    continue;
+                }
+                if (PlyFaceMaterials::is_index(property)) {
+                    material = material_index(property);
                     continue;
                 }
                 if (i != static_cast<std::size_t>(list)) {
@@ -342,10 +351,17 @@ class PlyBodyReader {
                 }
             }
             if (wish_.uv) corner_uv_.end_face(soup_.corners.size());
+            if (material) materials_.add(polygons, *material);
             end_item();
         }
     }
 
+    std::uint32_t material_index(const PlyProperty& property) {
+        const double value = number(property);
+        if (value >= 0 && value <= PlyFaceMaterials::kLargest && value == std::floor(value))
+            return static_cast<std::uint32_t>(value);
+        fail("material_index must be a whole number from 0 to 2147483647; repair or re-export the file");
+    }
     void read_corner_uv(const PlyProperty& property) {
         const std::uint64_t length = list_length(property);
         for (std::uint64_t k = 0; k < length; ++k) corner_uv_.add(number_of_attribute(property));
@@ -449,6 +465,7 @@ class PlyBodyReader {
     Values values_;
     PolygonSoup soup_;
     PlyCornerUv corner_uv_;
+    PlyFaceMaterials materials_;
     const PlyElement* element_ = nullptr;
     std::uint64_t item_ = 0;
     /// The largest vertex number of rows that are not plain, and where it stands first.

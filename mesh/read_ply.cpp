@@ -76,7 +76,7 @@ PolygonSoup read_ply(const std::string& path, int threads, bool strict, const At
         note_surplus(soup, path, reader.values().rest(), "the last element", strict);
     }
     soup.object_names = {std::filesystem::path(path).stem().string()};
-    soup.materials = {Material{}};
+    if (soup.materials.empty()) soup.materials = {Material{}};
     return soup;
 }
 

@@ -298,7 +298,8 @@ class LibraryCaller : private AnyArguments<Choices> {
             options.layers = one_of(
                 {"beauty", "Z,ids", "coverage,beauty", "", ",", "wool", "N,lines,surface,lines_hidden,beauty,Z"});
         const int stop = random_.integer(0, 3) == 0 ? 1 : 0;
-        options.progress = [](double, void* user) { return *static_cast<const int*>(user); };
+        // Options that end before `user` have none.
+        options.progress = [](double, void* user) { return user == nullptr ? 0 : *static_cast<const int*>(user); };
         options.user = const_cast<int*>(&stop);
         options.find_all = random_.integer(0, 9) == 0 ? integer() : 0;
         options.for_paths = random_.integer(0, 3) == 0 ? integer() : 0;

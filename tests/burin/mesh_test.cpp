@@ -57,6 +57,21 @@ TEST(LibraryMesh, MaterialsGiveThePictureOfTheFile) {
     EXPECT_TRUE(exr_of(scene) == program_exr(arrays, {"--set", "surfaces.shading=lambert"}));
 }
 
+TEST(LibraryMesh, WhereMaterialsMeetIsNoContact) {
+    Arrays arrays = cube();
+    Scene scene;
+    ASSERT_EQ(scene.add(Material{.name = "red"}), 1);
+    ASSERT_EQ(scene.add(Material{.name = "blue"}), 2);
+    arrays.materials = {1, 2, 1, 2, 0, 2};
+    scene.add(arrays.mesh());
+    const auto pieces_of = [&](const std::string& classes) {
+        scene.set("lines.draw=" + classes);
+        return scene.find_lines({.width = 90, .height = 60}).piece_count();
+    };
+    EXPECT_EQ(pieces_of("object,intersection,border"), 0u);
+    EXPECT_GT(pieces_of("material"), 2u);
+}
+
 /// What a sheet reads of a mesh is what it would read of a file.
 TEST(LibraryMesh, AttributesGiveThePictureOfTheFile) {
     const std::vector<float> points{0, 0, 0, 1, 0, 0, 2, 0, -1, 0, 1, 0, 1, 1, 0, 2, 1, -1};

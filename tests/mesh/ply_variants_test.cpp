@@ -40,6 +40,51 @@ class PlyVariants : public testing::Test {
 
 const std::string kPositions = "0 0 0\n1 0 0\n1 1 0\n0 1.5 0\n";
 
+TEST_F(PlyVariants, FacesHaveMaterialsByTheirNumbers) {
+    const std::string faces = "3 0 1 2 7\n3 0 2 3 2000000000\n4 0 1 2 3 7\n3 0 1 3 0\n";
+    const PolygonSoup soup = read(header(4, 4, "property int material_index\n") + kPositions + faces);
+    EXPECT_EQ(soup.polygon_material, (std::vector<std::uint32_t>{1, 2, 1, 0}));
+    ASSERT_EQ(soup.materials.size(), 3u);
+    EXPECT_EQ(soup.materials[0].name, "material_0");
+    EXPECT_EQ(soup.materials[1].name, "material_7");
+    EXPECT_EQ(soup.materials[2].name, "material_2000000000");
+    EXPECT_TRUE(soup.notes.empty());
+
+    const PolygonSoup one = read(header(4, 1, "property uchar material_index\n") + kPositions + "3 0 1 2 5\n");
+    EXPECT_TRUE(one.polygon_material.empty());
+    ASSERT_EQ(one.materials.size(), 1u);
+    EXPECT_EQ(one.materials[0].name, "material_5");
+    EXPECT_EQ(read(header(4, 1) + kPositions + "3 0 1 2\n").materials.size(), 1u);
+
+    // Strips have none, before faces and behind them.
+    const std::string strips = "element tristrips 1\nproperty list int int vertex_indices\n";
+    const std::string list = "element face 1\nproperty list uchar int vertex_indices\nproperty int material_index\n";
+    const std::string vertices =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+        "property float z\n";
+    const PolygonSoup behind = read(vertices + list + strips + "end_header\n" + kPositions + "3 0 1 2 4\n4 0 1 2 3\n");
+    EXPECT_EQ(behind.polygon_material, (std::vector<std::uint32_t>{0, 1, 1}));
+    const PolygonSoup before = read(vertices + strips + list + "end_header\n" + kPositions + "4 0 1 2 3\n3 0 1 2 4\n");
+    EXPECT_EQ(before.polygon_material, (std::vector<std::uint32_t>{1, 1, 0}));
+    EXPECT_EQ(before.materials[1].name, "");
+
+    for (const char* const bad : {"-1", "0.5", "3000000000"}) {
+        EXPECT_TRUE(refuses(header(4, 1, "property float material_index\n") + kPositions + "3 0 1 2 " + bad + "\n",
+                            {":15: material_index must be a whole number"}))
+            << bad;
+    }
+    ByteWriter body;
+    body.add<float>({0, 0, 0, 1, 0, 0, 1, 1, 0});
+    for (const std::uint16_t index : {std::uint16_t{3}, std::uint16_t{1}})
+        body.add<std::uint16_t>({index}).add<std::uint8_t>({3}).add<std::int32_t>({0, 1, 2});
+    const PolygonSoup binary = read(
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 2\nproperty ushort material_index\n"
+        "property list uchar int vertex_index\nend_header\n" +
+        body.bytes());
+    EXPECT_EQ(binary.polygon_material, (std::vector<std::uint32_t>{1, 0}));
+}
+
 TEST_F(PlyVariants, WhatFollowsTheDeclaredValuesOfALineIsNothing) {
     const Polygons expected{{0, 1, 2}, {0, 1, 2, 3}, {3, 2, 1}};
     for (const std::string& faces :
