@@ -306,6 +306,36 @@ def only_what_changes_is_read():
     yield from same_as_library()
 
 
+def frames_and_undo():
+    """Another frame, and back in time: addresses of Blender's data may be others, or the same of other data."""
+    scene, cube = bpy.context.scene, bpy.data.objects["cube"]
+    cube.keyframe_insert("location", frame=1)
+    cube.location.z += 1
+    cube.keyframe_insert("location", frame=10)
+    scene.frame_set(10)
+    late = yield from same_as_library()
+    scene.frame_set(1)
+    early = yield from same_as_library()
+    if (early == late).all():
+        raise Fails("an animation changes nothing")
+    with inside():
+        bpy.ops.ed.undo_push(message="before")
+    cube.data.vertices[1].co.x -= 0.7
+    cube.data.update()
+    add("torus", "torus", location=(0, -2, 0))
+    with inside():
+        bpy.ops.ed.undo_push(message="after")
+    yield from same_as_library()
+    with inside():
+        bpy.ops.ed.undo()
+    undone = yield from same_as_library()
+    if (undone != early).any():
+        raise Fails("undo leaves something")
+    bpy.data.objects.remove(bpy.data.objects["monkey"])
+    add("uv_sphere", "monkey", segments=16, ring_count=8).modifiers.new("finer", "SUBSURF")
+    yield from same_as_library()
+
+
 def looks():
     """Settings, presets, line sets: those of which Blender tells nothing are seen as well."""
     settings = bpy.context.scene.burin
@@ -394,8 +424,8 @@ def all_panels_are_drawn():
         yield 0.2
 
 
-CHECKS = (turns, other_projections, borders, sizes, what_is_shown, only_what_changes_is_read, looks, errors_are_texts,
-          changes_while_it_works, viewport_goes, all_panels_are_drawn)
+CHECKS = (turns, other_projections, borders, sizes, what_is_shown, only_what_changes_is_read, frames_and_undo, looks,
+          errors_are_texts, changes_while_it_works, viewport_goes, all_panels_are_drawn)
 
 
 def run():
