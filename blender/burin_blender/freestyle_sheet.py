@@ -6,6 +6,7 @@ of them needs, and select by `is_silhouette`, `is_crease` and so on."""
 
 import math
 
+from .core import BurinError
 from .freestyle_modifiers import StyleValues
 from .object_rules import ObjectRules
 from .sheet_text import SheetText, key, list_text, number_text, quoted
@@ -25,6 +26,7 @@ OTHER_EDGE_TYPES = {"suggestive_contour": "suggestive contours", "ridge_valley":
 # What Freestyle's view map has always.
 ALL_CLASSES = ("silhouette", "border", "crease", "mark")
 MOST_SURFACES_IN_FRONT = 255
+MOST_SETS = 64  # a sheet has no room for more styles
 
 
 class FreestyleSheet:
@@ -39,6 +41,8 @@ class FreestyleSheet:
             for line_set in self.settings.linesets:
                 if line_set.show_render and line_set.linestyle is not None:
                     self.select(line_set)
+        if len(self.sets) > MOST_SETS:
+            raise BurinError(f"view layer {view_layer.name} has {len(self.sets)} line sets; {MOST_SETS} can be drawn")
         self.rules = ObjectRules(scene)
         # Freestyle's angle is between faces, Burin's between their normals.
         self.crease_degrees = round(180 - math.degrees(self.settings.crease_angle), 4)

@@ -1,6 +1,7 @@
 """Which style sheet a view layer is drawn with, and what of Freestyle's settings is not in it."""
 
 from . import panel_look, sheets
+from .core import BurinError
 from .freestyle_sheet import FreestyleSheet
 
 
@@ -22,7 +23,10 @@ def not_drawn(scene, view_layer):
         notes.append("Freestyle itself is on as well, and draws its strokes over the picture; switch it off in the "
                      "render properties")
     if scene.burin.use_line_sets:
-        notes += FreestyleSheet(scene, view_layer).notes
+        try:
+            notes += FreestyleSheet(scene, view_layer).notes
+        except BurinError as error:  # what ends a render, too
+            notes.append(str(error))
     elif scene.burin.sheet.source != "NONE":
         notes += sheets.not_drawn(scene)
     return list(dict.fromkeys(notes))

@@ -2,10 +2,13 @@
 
 import math
 
+from .core import BurinError
 from .object_rules import ObjectRules
 from .sheet_text import SheetText, color_call, color_list, key, list_text, number_text, quoted
 
 LINE_CLASSES = ("mark", "border", "silhouette", "intersection", "object", "material", "crease", "polygon")
+
+MOST_COLORS = 100  # an expression of a sheet has room for so many, and more
 
 
 def line_classes(settings):
@@ -63,6 +66,8 @@ def sheet_text(scene):
     rules, colors = ObjectRules(scene), colored_materials(scene)
     if not classes or not (rules or colors):
         return None
+    if len(colors) > MOST_COLORS:
+        raise BurinError(f"materials have {len(colors)} line colours; {MOST_COLORS} are possible")
     begin, full = crease_degrees(settings)
     found = rules.crease_angle(begin)
     sheet = SheetText([f"crease_angle = {crease_angle_text(found, full if found == begin else found)}"])

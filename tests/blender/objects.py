@@ -375,8 +375,18 @@ def pictures_are_those_of_the_program():
         for letter in "RGBA":
             a, b = pixels[f"ViewLayer.{layer}.{letter}"], own[prefix + letter].astype(np.float32)
             differ = (a != b).sum()
-            assert differ <= 0.002 * a.size, (layer, letter, differ)
+            assert differ <= 8, (layer, letter, differ)
     assert pixels["ViewLayer.Lines.A"].max() > .9
+
+
+def the_preference_is_told():
+    from burin_blender import core
+    new_scene()
+    preferences = bpy.context.preferences.addons["burin_blender"].preferences
+    preferences.program = "/somewhere/burin"
+    assert core._preference == "/somewhere/burin"
+    preferences.program = ""
+    assert core._preference == ""
 
 
 main([all_kinds_have_polygons, polygons_stay_what_they_are, instances_share_a_mesh, collections_are_instances,
@@ -384,4 +394,4 @@ main([all_kinds_have_polygons, polygons_stay_what_they_are, instances_share_a_me
       visibility_is_blenders, occlusion_only_hides_and_has_no_lines, holdouts_cut_a_hole, materials_have_one_color,
       faces_have_the_material_of_their_slot, marked_edges_are_lines, modifiers_count_as_for_a_render,
       what_is_not_finite_is_named, what_cannot_be_drawn_is_an_error, an_empty_scene_is_empty,
-      pictures_are_those_of_the_program])
+      pictures_are_those_of_the_program, the_preference_is_told])

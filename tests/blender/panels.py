@@ -262,6 +262,34 @@ def wrong_sheets_are_errors():
     assert "missing.toml" in message()
 
 
+def too_many_are_told():
+    """More than a sheet has room for: a message that says of what, and how many are possible."""
+    scene, view_layer = new_scene(), bpy.context.view_layer
+    cube = add("cube", "cube")
+    for most, is_error in ((100, False), (101, True)):
+        while len(cube.data.materials) < most:
+            material = paint(cube, "many", (1, 1, 1, 1))
+            material.burin.use_line_color = True
+            material.burin.line_color = (len(cube.data.materials) / 128, 0.5, 0)
+        try:
+            core.Scene().set_style(line_sets.sheet_text(scene, view_layer))
+            assert not is_error
+        except core.BurinError as error:
+            assert is_error and "101 line colours" in str(error), error
+    scene.burin.use_line_sets = True
+    sets = view_layer.freestyle_settings.linesets
+    while len(sets) < 65:
+        sets.new("many")
+    sets.remove(sets[0])  # that of a new scene, without a style
+    core.Scene().set_style(line_sets.sheet_text(scene, view_layer))
+    sets.new("one more")
+    try:
+        line_sets.sheet_text(scene, view_layer)
+        raise AssertionError("no error")
+    except core.BurinError as error:
+        assert "65 line sets" in str(error) and str(error) in line_sets.not_drawn(scene, view_layer), error
+
+
 def a_sheet_only_where_it_is_needed():
     scene = new_scene()
     cube, other = add("cube", "cube"), add("cube", "other", location=(3, 0, 0))
@@ -316,6 +344,7 @@ main((
     presets_have_sliders,
     sheets_can_be_edited,
     wrong_sheets_are_errors,
+    too_many_are_told,
     a_sheet_only_where_it_is_needed,
     comes_and_goes,
 ))

@@ -94,19 +94,40 @@ def keep(name, pixels):
     image.write(str(FOLDER / f"{name}.png"))
 
 
-def at_rest():
-    """Waits until the full picture is on the screen."""
-    area().tag_redraw()
-    yield 0.1
+draws = 0  # how often Blender had a viewport drawn
+
+
+def count_draws():
+    original = viewport.view_draw
+
+    def counting(*arguments):
+        global draws
+        original(*arguments)
+        draws += 1
+
+    viewport.view_draw = counting
+
+
+def until(condition, what):
+    """Waits for something that is to come by itself."""
     begin = time.monotonic()
-    while True:
-        found = live()
-        if found is not None and found.is_final and found.key is not None:
-            break
+    while not condition():
         if time.monotonic() - begin > SECONDS_TO_REST:
-            raise Fails("the viewport does not come to rest")
+            raise Fails(what)
         yield 0.05
+
+
+def drawn_again():
+    before = draws
     area().tag_redraw()
+    yield from until(lambda: draws > before, "the viewport is not drawn again")
+
+
+def at_rest():
+    """Waits until the full picture of what is there now is on the screen."""
+    yield from drawn_again()
+    yield from until(lambda: live() is not None and live().is_final, "the viewport does not come to rest")
+    yield from drawn_again()
     yield 0.1
 
 
@@ -149,7 +170,7 @@ def same_as_library():
 
 def begin():
     """A viewport that shows nothing but the picture, with a scene to look at."""
-    bpy.context.preferences.view.show_splash = False
+    count_draws()
     scene = new_scene()
     yield 0.5  # the windows are new ones
     bpy.context.preferences.view.show_splash = False
@@ -217,13 +238,11 @@ def sizes():
     before = region().width
     space().show_region_ui = True
     bpy.context.preferences.system.use_region_overlap = False
-    yield 0.3
-    if region().width == before:
-        raise Fails("the region has the same size")
+    yield from until(lambda: region().width != before, "the region has the same size")
     yield from same_as_library()
     space().show_region_ui = False
     bpy.context.preferences.system.use_region_overlap = True
-    yield 0.3
+    yield from until(lambda: region().width == before, "the region keeps its size")
     yield from same_as_library()
 
 
@@ -287,6 +306,36 @@ def only_what_changes_is_read():
     yield from same_as_library()
 
 
+def frames_and_undo():
+    """Another frame, and back in time: addresses of Blender's data may be others, or the same of other data."""
+    scene, cube = bpy.context.scene, bpy.data.objects["cube"]
+    cube.keyframe_insert("location", frame=1)
+    cube.location.z += 1
+    cube.keyframe_insert("location", frame=10)
+    scene.frame_set(10)
+    late = yield from same_as_library()
+    scene.frame_set(1)
+    early = yield from same_as_library()
+    if (early == late).all():
+        raise Fails("an animation changes nothing")
+    with inside():
+        bpy.ops.ed.undo_push(message="before")
+    cube.data.vertices[1].co.x -= 0.7
+    cube.data.update()
+    add("torus", "torus", location=(0, -2, 0))
+    with inside():
+        bpy.ops.ed.undo_push(message="after")
+    yield from same_as_library()
+    with inside():
+        bpy.ops.ed.undo()
+    undone = yield from same_as_library()
+    if (undone != early).any():
+        raise Fails("undo leaves something")
+    bpy.data.objects.remove(bpy.data.objects["monkey"])
+    add("uv_sphere", "monkey", segments=16, ring_count=8).modifiers.new("finer", "SUBSURF")
+    yield from same_as_library()
+
+
 def looks():
     """Settings, presets, line sets: those of which Blender tells nothing are seen as well."""
     settings = bpy.context.scene.burin
@@ -304,7 +353,8 @@ def looks():
     found.linestyle.thickness = 2
     thin = yield from same_as_library()
     found.linestyle.thickness = 9
-    yield 0.6  # nobody asks for a redraw
+    before = live().version  # nobody asks for a redraw
+    yield from until(lambda: live().version > before, "another thickness of a line style is not seen")
     thick = yield from same_as_library()
     if (thin == thick).all():
         raise Fails("a thicker line style changes nothing")
@@ -320,10 +370,9 @@ def errors_are_texts():
     text = bpy.data.texts.new("mine")
     text.write('[[set]]\nname = "a"\nclasses = ["creese"]\nstyle = "b"\n[style.b]\nwidth = 3\n')
     sheet.source, sheet.text = "TEXT", text
-    area().tag_redraw()
-    yield 0.6
-    if "did you mean 'crease'" not in live().look_error:
-        raise Fails(f"no error: {live().look_error}")
+    yield from until(lambda: "did you mean 'crease'" in live().look_error, "no error")
+    yield from drawn_again()
+    yield 0.1
     seen = screen()
     if (seen > 250).all(axis=2).mean() > 0.5:
         raise Fails("a picture is shown beside the error")
@@ -331,7 +380,7 @@ def errors_are_texts():
     if reddish < 100:
         raise Fails("the error cannot be seen")
     text.from_string(text.as_string().replace("creese", "crease"))
-    yield 0.8
+    yield from until(lambda: not live().look_error, "the sheet is right, but an error is left")
     yield from same_as_library()
     sheet.source = "NONE"
 
@@ -360,11 +409,8 @@ def changes_while_it_works():
 def viewport_goes():
     """Another kind of shading, and back: nothing of the old one works on."""
     space().shading.type = "SOLID"
-    yield 0.5
-    if live() is not None:
-        raise Fails("a live view is left")
+    yield from until(lambda: live() is None, "a live view is left")
     space().shading.type = "RENDERED"
-    yield 0.3
     yield from same_as_library()
 
 
@@ -378,8 +424,8 @@ def all_panels_are_drawn():
         yield 0.2
 
 
-CHECKS = (turns, other_projections, borders, sizes, what_is_shown, only_what_changes_is_read, looks, errors_are_texts,
-          changes_while_it_works, viewport_goes, all_panels_are_drawn)
+CHECKS = (turns, other_projections, borders, sizes, what_is_shown, only_what_changes_is_read, frames_and_undo, looks,
+          errors_are_texts, changes_while_it_works, viewport_goes, all_panels_are_drawn)
 
 
 def run():
