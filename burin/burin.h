@@ -162,7 +162,8 @@ typedef struct burin_view {
     int32_t width, height; /**< pixels of the whole picture, 1 to 65535; both 0: as the scene says */
     int32_t crop[4];       /**< x0 y0 x1 y1: the part that is drawn, x1 and y1 excluded; all 0: all */
     int32_t samples;       /**< per pixel, along either axis: 2, 4 or 8; 0: as the scene says */
-    int32_t frame;         /**< number of the frame, for style sheets: -1000000000 to 1000000000 */
+    int32_t frame;         /**< number of the frame, for style sheets: -1000000000 to 1000000000; must be 0 where what
+                                was loaded moves, which is shown at rest in this version (burin_note()) */
     const char* camera;    /**< name of one of the scene's cameras, if there is no matrix; NULL: the first, or one that
                                 has all of the scene in view if there is none */
     double camera_to_world[16]; /**< the camera's x is to the right, y up, and it looks along -z; a rotation and a

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "base/instruction_set.h"
@@ -11,11 +13,14 @@
 #include "mesh/build_meshes.h"
 #include "mesh/model.h"
 #include "mesh/text_scan.h"
+#include "scene/animation/frame_pattern.h"
 
 namespace burin {
 namespace {
 
 constexpr double kLargestNumber = 1e30;  // as in scene files
+constexpr const char* kShownAtRest =
+    "the scene moves, and the library shows it at rest in this version; `burin render --frames` draws its frames";
 
 int next_number(int& last) {
     if (last == std::numeric_limits<int>::max()) throw InputError("a scene gives 2147483647 numbers; use a new one");
@@ -29,7 +34,7 @@ ObjectState& object_of(burin_scene& scene, int number) {
 }
 
 /// Puts a loaded scene beside what is there. Returns the number of its first object.
-int adopt(burin_scene& scene, Scene loaded, SceneSettings settings) {
+int adopt(burin_scene& scene, Scene loaded, SceneSettings settings, bool moves) {
     std::map<int, ObjectState> objects;
     const auto group = std::make_shared<MeshGroup>();
     group->meshes = std::move(loaded.meshes);
@@ -71,13 +76,39 @@ int adopt(burin_scene& scene, Scene loaded, SceneSettings settings) {
     scene.notes.swap(notes);
     scene.objects.merge(objects);
     scene.last_object = last_object;
+    scene.moves = scene.moves || moves;
     ++scene.revision;
     return first_object;
 }
 
+bool is_model_per_frame(const ObjectDescription& object) {
+    std::error_code error;
+    return !object.file.empty() && !std::filesystem::exists(object.file, error) &&
+           FramePattern::find(object.file, FramePattern::SingleHash::letter).has_value();
+}
+
+/// The files that are shown as they stand, whatever animations they have.
+std::set<std::string> files_at_rest(const SceneDescription& description) {
+    std::set<std::string> at_rest, moving;
+    for (const ObjectDescription& object : description.objects)
+        (object.animation.by == AnimationChoice::By::none ? at_rest : moving).insert(object.file);
+    for (const std::string& file : moving) at_rest.erase(file);
+    return at_rest;
+}
+
 int load_description(burin_scene& scene, SceneDescription description, SceneSettings settings) {
-    return adopt(scene, load_scene(std::move(description), {.threads = 0, .keeps_attributes = true}),
-                 std::move(settings));
+    LoadOptions options{.threads = 0, .keeps_attributes = true};
+    // Whether it moves is told, for it is shown at rest; a model per frame cannot be.
+    options.lists_animations = std::none_of(description.objects.begin(), description.objects.end(), is_model_per_frame);
+    const std::set<std::string> at_rest = files_at_rest(description);
+    const bool turns = description.turntable.has_value();
+    AnimatedScene loaded = load_animated_scene(std::move(description), options);
+    const auto& files = loaded.animation.file_animations;
+    const bool moves =
+        turns || loaded.animation.moves() ||
+        std::any_of(files.begin(), files.end(), [&](const AnimationsOfFile& f) { return !at_rest.contains(f.file); });
+    if (moves) loaded.scene.notes.emplace_back(kShownAtRest);
+    return adopt(scene, std::move(loaded.scene), std::move(settings), moves);
 }
 
 }  // namespace
@@ -252,6 +283,7 @@ int burin_remove_object(burin_scene* scene, int object) {
 int burin_clear_objects(burin_scene* scene) {
     return guarded([&] {
         required(scene, "scene").objects.clear();
+        scene->moves = false;
         ++scene->revision;
         return int{BURIN_DONE};
     });

@@ -34,6 +34,7 @@ SceneForFrame::SceneForFrame(burin_scene& state, const burin_view& view, const O
     scene_.surfaces = settings.surfaces;
     scene_.lights = settings.lights;
     scene_.abuffer = settings.abuffer;
+    scene_.crypto = settings.crypto;
     scene_.cameras = !settings.cameras.empty() ? settings.cameras : state.file_cameras;
     scene_.camera_is_default = scene_.cameras.empty();
     if (scene_.camera_is_default) scene_.cameras.emplace_back();
@@ -135,6 +136,11 @@ void SceneForFrame::make_frame_of(const burin_view& view, const OptionsInput& op
         scene_.picture.paper.size_mm.reset();
     }
     if (input.samples) scene_.abuffer.samples = input.samples;
+    if (input.frame && state_.moves) {
+        throw UsageError(
+            "view.frame: the scene moves, and the library shows it at rest in this version; `burin render -f " +
+            std::to_string(view.frame) + "` draws this frame");
+    }
     if (input.frame) scene_.frame.number = *input.frame;
     const double aspect = static_cast<double>(input.width) / input.height;
     Camera camera;

@@ -61,6 +61,7 @@ struct burin_scene {
     std::map<int, std::shared_ptr<burin::MeshGroup>> meshes;  ///< by their numbers
     std::map<int, burin::ObjectState> objects;                ///< by their numbers
     int last_mesh = 0, last_object = 0;                       ///< numbers that were given
+    bool moves = false;                                       ///< what was loaded has animations, which are not played
     std::vector<std::string> notes;
     std::string explanation;  ///< the last one of burin_explain()
     /// Of the program, by name; drawings share it, so that it is replaced and not changed.

@@ -26,8 +26,11 @@ using namespace option_values;
 
 /// The picture file that a command writes, and its statistics.
 void add_file_options(CLI::App& app, Texts& t) {
-    app.add_option("-o,--output", t.output,
-                   "file to write: " + suffixes_of_formats() + " (default: INPUT's name with .png)");
+    const std::string kinds = "file to write: " + suffixes_of_formats() + " (default: INPUT's name with .png)";
+    app.add_option("-o,--output", t.outputs, kinds + "; given again: one more of the same picture")
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false);
     app.add_option("--bits", t.bits, "bits per value of PNG and TIFF, 8 (default) or 16");
     app.add_option("--background", t.background,
                    "colour of the paper of PNG, TIFF and vector files, #rrggbb, or transparent");
@@ -130,6 +133,8 @@ void add_render_options(CLI::App& app, Texts& t) {
         "layers of an EXR: beauty lines Z N ids coverage surface lines_hidden line motion, lines_NAME of sets of a "
         "style sheet, crypto or single CryptoObject CryptoMaterial CryptoLine CryptoLineObject CryptoLineSet "
         "(default: the first five; lines_hidden with --hidden; those of sets that have one)");
+    app.add_option("--deep", t.deep,
+                   "write a deep EXR: samples of all surfaces and lines of each pixel; without -o nothing else");
     app.add_option("--save-lines", t.save_lines,
                    "write the lines found to this file .lines, for burin restyle; needs a style sheet");
     app.add_flag("--save-surface", t.save_surface, "keep the filled surfaces in it, too");
@@ -452,8 +457,8 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         a.skips_existing = true;
         a.submit_arguments = arguments_without(*submit, {"--frames", "--dry-run"});
         a.render_arguments =
-            arguments_without(*submit, {"--frames", "--output", "--stats", "--progress", "--skip-existing", "--threads",
-                                        "--chunk", "--bands", "--retries", "--dry-run"});
+            arguments_without(*submit, {"--frames", "--output", "--deep", "--stats", "--progress", "--skip-existing",
+                                        "--threads", "--chunk", "--bands", "--retries", "--dry-run"});
     }
     return a;
 }

@@ -25,6 +25,8 @@ struct Arguments {
     Command command = Command::render;
     std::string input;
     std::string output;
+    std::vector<std::string> more_outputs;  ///< further pictures of the same frame
+    std::string deep;                       ///< file for samples of all surfaces and lines of each pixel
     std::optional<std::array<int, 2>> size;
     bool size_is_longer_side = false;  ///< one number was given, which only paper makes a size of
     std::optional<glm::dvec3> eye, target, up;

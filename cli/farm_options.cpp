@@ -16,7 +16,11 @@ void fill_farm_options(const FarmTexts& t, Arguments& a) {
     if (a.command == Command::render && a.json && !a.is_dry_run) fail("--json", "needs --dry-run");
     a.sbatch_options = t.sbatch_options;
     if (a.band_count <= 1) return;
-    if (lower_extension(a.output) != ".exr") fail("--bands", "EXR only");
+    std::vector<std::string> pictures = a.more_outputs;
+    if (!a.output.empty() || a.deep.empty()) pictures.push_back(a.output);
+    for (const std::string& picture : pictures) {
+        if (lower_extension(picture) != ".exr") fail("--bands", "EXR only");
+    }
     if (a.crop) fail("--bands", "cannot stand beside --crop; remove one");
     if (!a.save_lines.empty()) fail("--bands", "cannot stand beside --save-lines; remove one");
 }

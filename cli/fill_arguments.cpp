@@ -120,7 +120,8 @@ void fill_scene_options(const Texts& t, Arguments& a) {
 }
 
 void fill_render_options(const Texts& t, Arguments& a) {
-    a.output = t.output;
+    a.output = t.outputs.empty() ? t.output : t.outputs.front();
+    if (!t.outputs.empty()) a.more_outputs.assign(t.outputs.begin() + 1, t.outputs.end());
     if (!t.layers.empty()) a.layers = layer_set(t.layers);
     a.names_layers = !t.layers.empty();
     if (!t.crop.empty()) a.crop = integers<4>("--crop", t.crop, ',', "X0,Y0,X1,Y1 in pixels");
@@ -137,6 +138,7 @@ void fill_render_options(const Texts& t, Arguments& a) {
     if (!t.repeat.empty()) a.repeat = integer("--repeat", t.repeat, 1, 1000000);
     if (!t.progress.empty() && t.progress != "alf") fail("--progress", "must be alf");
     a.alf_progress = t.progress == "alf";
+    a.deep = t.deep;
     a.save_lines = t.save_lines;
     a.saves_surface = t.save_surface;
     if (a.saves_surface && a.save_lines.empty()) fail("--save-surface", "needs --save-lines");

@@ -44,7 +44,7 @@ bool changes_no_picture(std::string_view option) {
         "--stats",      "--progress",  "-v",           "-q",       "--frames",
         "--frame",      "--turntable", "--crop",       "--repeat", "--skip-existing",
         "--keep-going", "--strict",    "--dry-run",    "--json",   "--chunk",
-        "--bands",      "--retries",   "--save-lines", "--fps"};
+        "--bands",      "--retries",   "--save-lines", "--fps",    "--deep"};
     return std::find(kOptions.begin(), kOptions.end(), option) != kOptions.end();
 }
 

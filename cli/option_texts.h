@@ -15,7 +15,7 @@ namespace burin {
 struct Texts {
     std::string input, output, size, eye, target, up, fov, ortho, camera, method, mask, samples, lines, operators,
         supersample;
-    std::string width, color, frame, save_lines, find, crease, hidden, style, layers, crop, threads, memory,
+    std::string width, color, frame, deep, save_lines, find, crease, hidden, style, layers, crop, threads, memory,
         model_memory, stats, bits;
     PageTexts page;
     VectorTexts vector;
@@ -24,7 +24,7 @@ struct Texts {
     FarmTexts farm;
     std::string repeat, progress, pixel, background, methods, compare_frames;
     std::string port;
-    std::vector<std::string> sets;
+    std::vector<std::string> sets, outputs;
     int verbose = 0;
     bool quiet = false, json = false, strict = false, save_surface = false, no_browser = false;
 };

@@ -20,6 +20,19 @@ bool is_one_file(const std::string& a, const std::string& b) {
     return !error && whole_a == whole_b;
 }
 
+void refuse_same_files(const std::vector<OutputFile>& outputs) {
+    std::map<std::string, std::vector<const OutputFile*>> by_name;  // in whatever folder
+    for (const OutputFile& output : outputs) {
+        std::vector<const OutputFile*>& known = by_name[std::filesystem::path(output.path).filename().string()];
+        for (const OutputFile* other : known) {
+            if (is_one_file(other->path, output.path))
+                throw UsageError(output.option + ": would overwrite " + other->path + ", which " + other->option +
+                                 " writes; give another name");
+        }
+        known.push_back(&output);
+    }
+}
+
 void refuse_to_overwrite(const std::vector<OutputFile>& outputs, const std::vector<std::string>& inputs) {
     std::map<std::pair<dev_t, ino_t>, const OutputFile*> files;
     struct stat info {};

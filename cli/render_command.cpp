@@ -32,27 +32,31 @@ void note_on_frame(const Arguments& a, const std::string& frame, const std::stri
 }
 
 /// One picture: the file, then its statistics.
-void render_still(const Arguments& a, const Method& method, FrameRenderer& renderer, OutputOptions output,
-                  double load_s, const Stopwatch& total, Progress& progress, bool shows_bar, double frame) {
+void render_still(const Arguments& a, RenderJob& job, double load_s, const Stopwatch& total, Progress& progress,
+                  bool shows_bar) {
     Stopwatch watch;
-    output.fingerprint = renderer.fingerprint_of(frame);
+    FrameRenderer& renderer = job.renderer();
+    const FramePlan& plan = job.plan();
+    const double frame = plan.frames.front();
+    const FrameFingerprint fingerprint = renderer.fingerprint_of(frame);
     if (a.skips_existing) {
         std::string note;
-        if (renderer.is_there(frame, output.fingerprint, note)) return;
+        if (renderer.is_there(frame, fingerprint, note)) return;
         note_on_frame(a, "", note);
+        check_files_of(plan, frame);
     }
     renderer.pose(renderer.change_at(frame));
     load_s += watch.lap();
-    DrawnFrame drawn = renderer.draw(output, &progress);
+    DrawnFrame drawn = renderer.draw(renderer.outputs_of(frame, fingerprint), &progress);
     StageTimes& times = drawn.times;
     drawn.write(a);
     times.load_s += load_s;
     progress.finish();
     times.total_s = a.repeat > 0 ? times.load_s + drawing_seconds(times.render) + times.write_s : total.seconds();
-    if (!a.stats.empty()) write_stats(a.stats, stats_json(times, drawn.frame, method));
+    if (!a.stats.empty()) write_stats(a.stats, stats_json(times, drawn.frame, job.method()));
     if (a.verbose || shows_bar) {
         std::fprintf(stderr, "%s: %dx%d, %llu triangles, %.2f s (read %.2f, draw %.2f, write %.2f)\n",
-                     output.path.c_str(), drawn.frame.crop.width(), drawn.frame.crop.height(),
+                     drawn.outputs.front().path.c_str(), drawn.frame.crop.width(), drawn.frame.crop.height(),
                      static_cast<unsigned long long>(times.render.triangles), total.seconds(), times.load_s,
                      drawing_seconds(times.render), times.write_s);
     }
@@ -86,12 +90,10 @@ class NextChange {
 /// Renders all frames of a plan: one is drawn, the next one is made ready beside it, and the last one written.
 class FrameJob {
   public:
-    FrameJob(const Arguments& a, const FramePlan& plan, FrameRenderer& renderer, const OutputOptions& output,
-             Progress& progress, double load_s)
+    FrameJob(const Arguments& a, const FramePlan& plan, FrameRenderer& renderer, Progress& progress, double load_s)
         : arguments_(a),
           plan_(plan),
           renderer_(renderer),
-          output_(output),
           progress_(progress),
           report_(a, plan, progress),
           in_background_(resolve_thread_count(a.threads) > 1),
@@ -139,7 +141,7 @@ class FrameJob {
     /// A frame that is to be rendered.
     struct Due {
         double frame = 0;
-        std::string fingerprint;
+        FrameFingerprint fingerprint;
     };
 
     /// The next frame that is to be rendered; nothing if no more is.
@@ -150,6 +152,7 @@ class FrameJob {
             try {
                 Due due{frame, renderer_.fingerprint_of(frame)};
                 if (!is_there(frame, due.fingerprint)) {
+                    if (arguments_.skips_existing && !std::exchange(has_checked_, true)) check_files_of(plan_, frame);
                     ++at_;
                     return due;
                 }
@@ -176,7 +179,7 @@ class FrameJob {
             SceneChange change = next_.take();
             look_ahead();
             renderer_.pose(std::move(change));
-            DrawnFrame drawn = renderer_.draw(output_of(due), &progress_);
+            DrawnFrame drawn = renderer_.draw(renderer_.outputs_of(due.frame, due.fingerprint), &progress_);
             drawn.skipped_behind = std::exchange(skipped_, {});
             writer_.write(std::move(drawn));
         } catch (const InputError& error) {
@@ -192,16 +195,8 @@ class FrameJob {
         report_.failed(frame, why);
     }
 
-    OutputOptions output_of(const Due& due) const {
-        OutputOptions output = output_;
-        output.path = plan_.picture.path_of(due.frame);
-        output.fingerprint = due.fingerprint;
-        output.frame = renderer_.scene().frame;
-        return output;
-    }
-
     /// Whether a frame need not be rendered again.
-    bool is_there(double frame, const std::string& fingerprint) {
+    bool is_there(double frame, const FrameFingerprint& fingerprint) {
         if (!arguments_.skips_existing) return false;
         std::string note;
         if (renderer_.is_there(frame, fingerprint, note)) return true;
@@ -232,7 +227,6 @@ class FrameJob {
     const Arguments& arguments_;
     const FramePlan& plan_;
     FrameRenderer& renderer_;
-    const OutputOptions& output_;
     Progress& progress_;
     JobReport report_;
     bool in_background_;
@@ -240,6 +234,7 @@ class FrameJob {
     FrameWriter writer_;
     std::size_t at_ = 0;           // of the frames: what next_due() looks at
     std::vector<double> skipped_;  // found by it, and not told
+    bool has_checked_ = false;     // that files can be written
 };
 
 }  // namespace
@@ -252,14 +247,11 @@ void run_render(const Arguments& a) {
     if (a.is_dry_run) return tell_dry_run(ready, a);
     const FramePlan& plan = ready.plan();
     const double load_s = watch.lap();
-    if (!plan.is_sequence) {
-        return render_still(a, ready.method(), ready.renderer(), ready.output(), load_s, total, progress, shows_bar,
-                            plan.frames.front());
-    }
-    FrameJob job(a, plan, ready.renderer(), ready.output(), progress, load_s);
+    if (!plan.is_sequence) return render_still(a, ready, load_s, total, progress, shows_bar);
+    FrameJob job(a, plan, ready.renderer(), progress, load_s);
     job.run();
     if (a.verbose || shows_bar) {
-        std::fprintf(stderr, "%s: %zu frames, %.2f s\n", plan.picture.path.c_str(), plan.frames.size(),
+        std::fprintf(stderr, "%s: %zu frames, %.2f s\n", plan.outputs.front().path.c_str(), plan.frames.size(),
                      total.seconds());
     }
 }

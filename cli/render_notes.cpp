@@ -35,29 +35,35 @@ void note_loose_edges(const Frame& frame, const Method& method) {
 }  // namespace
 
 void note_limits(const Arguments& a, const Frame& frame, const Method& method, bool has_hidden_lines,
-                 const OutputOptions& output) {
+                 const std::vector<OutputOptions>& outputs) {
     if (a.quiet) return;
-    if (a.names_layers && output.format != OutputFormat::exr) {
+    const auto count = [&](const auto& is_it) {
+        return static_cast<std::size_t>(
+            std::count_if(outputs.begin(), outputs.end(), [&](const OutputOptions& o) { return is_it(o.format); }));
+    };
+    const std::size_t paths = count(is_vector), exrs = count([](OutputFormat f) { return f == OutputFormat::exr; });
+    const bool are_paths = paths == outputs.size(), are_exr = exrs == outputs.size();
+    if (a.names_layers && exrs == 0) {
         std::fputs("burin: note: only an EXR has --layers; this file gets the beauty layer\n", stderr);
     }
-    if (a.has_vector_options && !is_vector(output.format)) {
+    if (a.has_vector_options && paths == 0) {
         std::fputs("burin: note: --tolerance, --chord-sag, --dashes, --group, --ids and --merge are for vector files\n",
                    stderr);
     }
-    if (is_vector(output.format) && a.bits != Arguments().bits)
+    if (are_paths && a.bits != Arguments().bits)
         std::fputs("burin: note: --bits is for PNG and TIFF; paths have no bits per value\n", stderr);
-    if (a.page == PagePreset::laser && a.line_width_px && is_vector(output.format)) {
+    if (a.page == PagePreset::laser && a.line_width_px && paths > 0) {
         std::fputs("burin: note: --page laser makes all lines 0.01 mm wide; --line-width changes nothing here\n",
                    stderr);
     }
-    if (output.format == OutputFormat::exr && (a.bits != Arguments().bits || !a.background.empty())) {
+    if (are_exr && (a.bits != Arguments().bits || !a.background.empty())) {
         std::fputs(
             "burin: note: --bits and --background are for PNG and TIFF; an EXR is half precision without paper\n",
             stderr);
     }
     const SurfaceShading shading = frame.scene->surfaces.shading;
     const bool has_look = shading != SurfaceShading::paper && shading != SurfaceShading::none;
-    if (is_vector(output.format) && has_look && !draws_regions(*frame.scene, a)) {
+    if (paths > 0 && has_look && !draws_regions(*frame.scene, a)) {
         std::fprintf(stderr, "burin: note: --page %s has lines only; the surfaces are left out\n",
                      std::string(page_of(a.page).name).c_str());
     }

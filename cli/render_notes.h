@@ -9,6 +9,6 @@ namespace burin {
 
 /// Notes what a user should know before the picture surprises. `has_hidden_lines`: the scene asks for some.
 void note_limits(const Arguments& arguments, const Frame& frame, const Method& method, bool has_hidden_lines,
-                 const OutputOptions& output);
+                 const std::vector<OutputOptions>& outputs);
 
 }  // namespace burin

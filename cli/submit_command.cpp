@@ -39,7 +39,7 @@ std::string band_name(const std::string& path, std::size_t band) {
 }
 
 /// Bands of rows, nearly equal in height; each but the first begins with a chunk of the EXR.
-std::vector<FarmBand> bands_of(const Arguments& a, PixelRect area, const std::string& output) {
+std::vector<FarmBand> bands_of(const Arguments& a, PixelRect area, const std::vector<FarmOutput>& outputs) {
     if (a.band_count <= 1) return {};
     const int chunks = (area.height() + kRowsOfChunk - 1) / kRowsOfChunk;
     if (a.band_count > chunks) {
@@ -54,7 +54,8 @@ std::vector<FarmBand> bands_of(const Arguments& a, PixelRect area, const std::st
         const std::array<int, 4> crop = {area.x0, row(b), area.x1, row(b + 1)};
         std::string text;
         for (const int side : crop) text += (text.empty() ? "" : ",") + std::to_string(side);
-        bands.push_back({text, band_name(output, static_cast<std::size_t>(b))});
+        FarmBand& band = bands.emplace_back(FarmBand{text, outputs});
+        for (FarmOutput& output : band.outputs) output.pattern = band_name(output.pattern, static_cast<std::size_t>(b));
     }
     return bands;
 }
@@ -71,7 +72,7 @@ std::vector<std::string> chunks_of(const std::vector<double>& frames, std::size_
 }
 
 FarmJob farm_job(RenderJob& job, const Arguments& a, const std::vector<double>& missing) {
-    const FrameFile& picture = job.plan().picture;
+    const std::vector<FrameFile>& files = job.plan().outputs;
     const Scene& scene = job.renderer().scene();
     FarmJob farm;
     farm.name = "burin-" + std::filesystem::path(a.input).stem().string();
@@ -81,27 +82,31 @@ FarmJob farm_job(RenderJob& job, const Arguments& a, const std::vector<double>& 
     }
     farm.program = path_of_program();
     farm.folder = std::filesystem::current_path().string();
-    const std::filesystem::path folder = std::filesystem::absolute(picture.path).parent_path();
+    const std::filesystem::path folder = std::filesystem::absolute(files.front().path).parent_path();
     farm.log_folder = (folder / "burin-logs").string();
     if (farm.log_folder.find_first_of("\"\\\n") != std::string::npos)
         throw InputError(farm.log_folder +
                          ": sbatch takes no folder with quotes, backslashes or line feeds in its name");
     farm.arguments = a.render_arguments;
-    farm.output = picture.path;
+    for (const FrameFile& file : files) farm.outputs.push_back({file.option, file.path});
     farm.frames = text_of_frames(job.plan().frames);
-    farm.bands = bands_of(a, crop_of(a, scene.picture.width, scene.picture.height), picture.path);
+    farm.bands = bands_of(a, crop_of(a, scene.picture.width, scene.picture.height), farm.outputs);
     // Slurm numbers tasks; more of them than it takes become larger.
     const std::size_t tasks = std::max<std::size_t>(1, kMostTasks / std::max<std::size_t>(1, farm.bands.size()));
     const std::size_t least = (missing.size() + tasks - 1) / tasks;
     farm.chunks = chunks_of(missing, std::max(static_cast<std::size_t>(a.frames_of_a_task), least));
     for (std::size_t i = 0; !farm.bands.empty() && i < missing.size(); ++i) {
-        FarmFrame frame{picture.path_of(missing[i]), {}};
-        for (std::size_t b = 0; b < farm.bands.size(); ++b) frame.bands.push_back(band_name(frame.output, b));
-        farm.files.push_back(std::move(frame));
+        for (const FrameFile& whole : files) {
+            FarmFile file{whole.path_of(missing[i]), {}};
+            for (std::size_t b = 0; b < farm.bands.size(); ++b) file.bands.push_back(band_name(file.output, b));
+            farm.files.push_back(std::move(file));
+        }
     }
     for (const double frame : missing) {
-        const std::filesystem::path path = std::filesystem::absolute(picture.path_of(frame));
-        farm.leftovers.push_back((path.parent_path() / ("." + path.stem().string())).string());
+        for (const FrameFile& file : files) {
+            const std::filesystem::path path = std::filesystem::absolute(file.path_of(frame));
+            farm.leftovers.push_back((path.parent_path() / ("." + path.stem().string())).string());
+        }
     }
     farm.resubmit = shell_quoted(farm.program) + " submit";
     for (const std::string& argument : a.submit_arguments) farm.resubmit += ' ' + shell_quoted(argument);

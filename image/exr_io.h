@@ -18,6 +18,7 @@ class ExrWriter {
     /// Rows that come together, whatever is compressed together.
     static constexpr int kChunkRows = 16;
 
+    /// Channels without a name are left out.
     ExrWriter(const std::string& path, PixelRect display, PixelRect data, const std::vector<ChannelFormat>& channels,
               const ExrOptions& options);
     /// Into a file that is open, and stays so. `name`: for messages.

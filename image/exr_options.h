@@ -29,9 +29,15 @@ struct ExrRational {
 /// A matrix for row vectors, row by row.
 using ExrMatrix = std::array<float, 16>;
 
+/// A value of any other type, as it stands in the file.
+struct ExrBytes {
+    std::string type;
+    std::vector<std::uint8_t> bytes;
+};
+
 struct ExrAttribute {
     std::string name;
-    std::variant<std::string, std::int32_t, ExrRational, ExrMatrix> value;
+    std::variant<std::string, std::int32_t, ExrRational, ExrMatrix, ExrBytes> value;
 };
 
 /// Channels that form a part of their own.

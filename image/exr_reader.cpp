@@ -42,6 +42,21 @@ Imf::FrameBuffer frame_buffer(const Image& image) {
 
 }  // namespace
 
+Image read_flattened_exr(const std::string& path) {
+    try {
+        Imf::InputFile input(path.c_str());
+        const Imath::Box2i box = input.header().dataWindow();
+        const PixelRect rect{box.min.x, box.min.y, box.max.x + 1, box.max.y + 1};
+        Image image(rect, rect);
+        for (const char* const name : {"R", "G", "B", "A"}) image.add(name, PixelType::float32);
+        input.setFrameBuffer(frame_buffer(image));
+        input.readPixels(rect.y0, rect.y1 - 1);
+        return image;
+    } catch (const std::exception& error) {
+        throw InputError(path + ": cannot read: " + error.what());
+    }
+}
+
 Image read_exr(const std::string& path) {
     try {
         Imf::InputFile input(path.c_str());

@@ -7,6 +7,8 @@
 #include "base/limit_error.h"
 #include "render/blur_extent.h"
 #include "render/blur_sums.h"
+#include "render/matte_sums.h"
+#include "render/mattes.h"
 
 namespace burin {
 namespace {
@@ -23,9 +25,15 @@ bool any_has_mean(const std::vector<ChannelFormat>& channels) {
     return std::any_of(channels.begin(), channels.end(), has_mean);
 }
 
+bool sums_mattes(const Film& film) {
+    return film.mattes() != nullptr && (film.mattes()->wants_shares() || film.mattes()->wants_deep());
+}
+bool needs_middle(const Film& film) { return !all_have_mean(film.channels()) || film.layers().line; }
+
 /// Of sums, and of a picture that is summed.
 std::size_t bytes_per_row(const Film& film) {
-    std::size_t bytes = 0;
+    constexpr std::size_t kBytesOfMattes = 64;
+    std::size_t bytes = sums_mattes(film) ? kBytesOfMattes : 0;
     for (const ChannelFormat& channel : film.channels())
         bytes += has_mean(channel) ? sizeof(float) + size_of(channel.type) : 0;
     return bytes * static_cast<std::size_t>(film.crop().width());
@@ -34,7 +42,7 @@ std::size_t bytes_per_row(const Film& film) {
 /// The rows that are summed at once: under a cap for memory, so many that this takes no more than half of it.
 std::vector<PixelRect> bands_of(const Film& film, const RunOptions& options) {
     const PixelRect all = film.crop();
-    if (!any_has_mean(film.channels())) return {};
+    if (!any_has_mean(film.channels()) && !sums_mattes(film)) return {};
     int height = all.height();
     if (options.memory_bytes > 0) {
         const auto rows = options.memory_bytes / 2 / bytes_per_row(film) / Film::kBandRows * Film::kBandRows;
@@ -49,7 +57,7 @@ std::vector<PixelRect> bands_of(const Film& film, const RunOptions& options) {
 class BlurredFrame {
   public:
     BlurredFrame(const Method& method, const Blur& blur, const MomentAt& moment_at, int width, int height,
-                 const RunOptions& options, Film& film)
+                 const RunOptions& options, Film& film, const ReadyFrame& make_ready)
         : method_(method),
           blur_(blur),
           moment_at_(moment_at),
@@ -57,6 +65,7 @@ class BlurredFrame {
           height_(height),
           options_(options),
           film_(film),
+          make_ready_(make_ready),
           layers_(layers_with_mean(film.layers())) {
         progress_ = std::exchange(options_.progress, nullptr);
         options_.finished_band = nullptr;
@@ -65,19 +74,35 @@ class BlurredFrame {
 
     RenderStats draw(int count) {
         if (progress_ != nullptr) progress_->begin("rendering", sub_frames_drawn(count, options_, film_));
-        if (!all_have_mean(film_.channels())) {
-            draw_frame(frame_of(middle_sub_frame(shutter_of(blur_)), film_.crop()), film_, options_);
-        }
+        if (needs_middle(film_))
+            draw_frame(frame_of(middle_sub_frame(shutter_of(blur_)), film_.crop(), true), film_, options_);
+        if (sums_mattes(film_)) film_.mattes()->begin_mean();
         const std::vector<SubFrame> subs = sub_frames(shutter_of(blur_), blur_.has_lens, count);
         for (const PixelRect& rows : bands_of(film_, options_)) draw_mean(subs, rows);
         return std::move(stats_);
     }
 
   private:
-    Frame frame_of(const SubFrame& sub, PixelRect rows) {
+    Frame frame_of(const SubFrame& sub, PixelRect rows, bool is_middle = false) {
         const Moment moment = moment_at_(sub.time, MomentUse::drawing);
-        const Camera camera = sub.lens == glm::dvec2(0.0) ? moment.camera : from_lens_point(moment.camera, sub.lens);
-        return make_frame(*moment.scene, camera, width_, height_, rows, moment.prepared);
+        const bool is_moved = sub.lens != glm::dvec2(0.0);
+        const Camera camera = is_moved ? from_lens_point(moment.camera, sub.lens) : moment.camera;
+        if (is_moved) check_lens(moment.camera, camera);
+        Frame frame = make_frame(*moment.scene, camera, width_, height_, rows, moment.prepared);
+        if (make_ready_) make_ready_(frame, is_middle);
+        return frame;
+    }
+
+    /// Refuses a lens that is too large for the distance in focus. `moved`: the camera as a point of it sees.
+    void check_lens(const Camera& camera, const Camera& moved) const {
+        const auto is_in_reach = [&](const Camera& c) {
+            const glm::dvec2 center = c.projection(width_, height_, 0).center_px;
+            const glm::dvec2 farthest = glm::max(glm::abs(center), glm::abs(glm::dvec2(width_, height_) - center));
+            return std::max(farthest.x, farthest.y) <= kGuardBandPx;
+        };
+        if (is_in_reach(moved) || !is_in_reach(camera)) return;
+        throw InputError("the lens moves the picture beyond " + std::to_string(static_cast<int>(kGuardBandPx)) +
+                         " pixels from its axis; make its radius smaller, or the distance in focus larger");
     }
 
     void draw_frame(const Frame& frame, Film& film, const RunOptions& options) {
@@ -92,6 +117,8 @@ class BlurredFrame {
         Film film = in_bands ? Film::in_bands(film_.display(), rows, layers_, classes)
                              : Film(film_.display(), rows, layers_, classes);
         BlurSums sums(rows, film.channels());
+        std::optional<MatteSums> matte_sums;
+        if (sums_mattes(film)) matte_sums.emplace(rows, *film.mattes());
         RunOptions options = options_;
         if (options.memory_bytes > 0) {
             const std::uint64_t taken = bytes_per_row(film_) * static_cast<std::uint64_t>(rows.height());
@@ -100,6 +127,7 @@ class BlurredFrame {
         if (in_bands) {
             options.finished_band = [&](std::size_t band) {
                 sums.add(film.band(band));
+                if (matte_sums) matte_sums->add(*film.mattes(), band);
                 film.close(band);
             };
         }
@@ -113,9 +141,13 @@ class BlurredFrame {
             } catch (const LimitError& error) {
                 throw LimitError(error.what() + std::string("; a blurred one takes twice that"));
             }
-            if (!in_bands) sums.add(film.image(), options.threads);
+            if (in_bands) continue;
+            sums.add(film.image(), options.threads);
+            if (matte_sums) matte_sums->add_all(*film.mattes(), options.threads);
         }
-        sums.put_mean(static_cast<int>(subs.size()), film_.image(), options.threads);
+        const int count = static_cast<int>(subs.size());
+        sums.put_mean(count, film_.image(), options.threads);
+        if (matte_sums) matte_sums->put_mean(count, *film_.mattes(), options.threads);
     }
 
     const Method& method_;
@@ -124,6 +156,7 @@ class BlurredFrame {
     int width_, height_;
     RunOptions options_;
     Film& film_;
+    const ReadyFrame& make_ready_;
     Progress* progress_;
     LayerSet layers_;
     RenderStats stats_;
@@ -152,12 +185,12 @@ int sub_frame_count(const Blur& blur, const MomentAt& moment_at, int width, int 
 }
 
 RenderStats render_blurred(const Method& method, const Blur& blur, int count, const MomentAt& moment_at, int width,
-                           int height, const RunOptions& options, Film& film) {
-    return BlurredFrame(method, blur, moment_at, width, height, options, film).draw(count);
+                           int height, const RunOptions& options, Film& film, const ReadyFrame& make_ready) {
+    return BlurredFrame(method, blur, moment_at, width, height, options, film, make_ready).draw(count);
 }
 
 std::size_t sub_frames_drawn(int count, const RunOptions& options, const Film& film) {
-    return bands_of(film, options).size() * static_cast<std::size_t>(count) + (all_have_mean(film.channels()) ? 0 : 1);
+    return bands_of(film, options).size() * static_cast<std::size_t>(count) + (needs_middle(film) ? 1 : 0);
 }
 
 }  // namespace burin

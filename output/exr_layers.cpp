@@ -32,6 +32,7 @@ std::vector<ExrPart> parts_of(const std::vector<ChannelFormat>& channels, const 
                                                          "depth", "N",     "id",           "line",     "motion"};
     std::vector<ExrPart> parts;
     for (std::size_t c = 0; c < channels.size(); ++c) {
+        if (channels[c].name.empty()) continue;
         const std::string name = part_of(channels[c].name);
         auto part = std::find_if(parts.begin(), parts.end(), [&](const ExrPart& p) { return p.name == name; });
         if (part == parts.end()) part = parts.insert(parts.end(), ExrPart{name, {}, {}});

@@ -22,11 +22,14 @@ void write_rows(ExrWriter& exr, const ImageStrip& strip) {
 }  // namespace
 
 FilmChannels::FilmChannels(const Frame& frame, const Film& film) : film_(film) {
-    if (film.mattes() != nullptr) mattes_.emplace(frame, film);
+    if (film.layers().crypto.has_any() || film.layers().line) mattes_.emplace(frame, film);
 }
 
-std::vector<ChannelFormat> FilmChannels::formats() const {
+std::vector<ChannelFormat> FilmChannels::formats(const OutputOptions& options) const {
     std::vector<ChannelFormat> formats = film_.channels();
+    constexpr std::size_t kBeautyChannels = 4;
+    for (std::size_t i = 0; i < kBeautyChannels && film_.layers().beauty && !options.has_beauty; ++i)
+        formats[i].name.clear();
     if (!mattes_) return formats;
     for (ChannelFormat& format : mattes_->formats()) formats.push_back(std::move(format));
     return formats;
@@ -42,7 +45,7 @@ ExrOptions FilmChannels::exr_options(const Frame& frame, const OutputOptions& op
     exr.compression = choice.compression;
     const std::vector<CryptoAttributes> crypto = mattes_ ? mattes_->attributes() : std::vector<CryptoAttributes>{};
     if (choice.has_parts) {
-        exr.parts = parts_of(formats(), crypto);
+        exr.parts = parts_of(formats(options), crypto);
         return exr;
     }
     for (const CryptoAttributes& layer : crypto)
@@ -97,7 +100,7 @@ WrittenFilm write_output(const Frame& frame, const Film& film, const FilmChannel
         write_display_image(options.path, image, options.bits);
         return {};
     }
-    ExrWriter exr(options.path, film.display(), film.crop(), named(channels.formats(), options.exr.names),
+    ExrWriter exr(options.path, film.display(), film.crop(), named(channels.formats(options), options.exr.names),
                   channels.exr_options(frame, options));
     const ImageStrip strip = strip_of(film.image());
     const int step = channels.adds_any() ? Film::kBandRows : ExrWriter::kChunkRows;
@@ -123,27 +126,18 @@ void write_output(ByteSink& file, const PictureSettings& picture, const Image& i
     write_display_image(file, options.path, suffix, displayed(picture, image), options.bits);
 }
 
-BandWriter::BandWriter(const Frame& frame, Film& film, const OutputOptions& options)
+BandWriter::BandWriter(const Frame& frame, const Film& film, const OutputOptions& options)
     : film_(film),
       channels_(frame, film),
       exr_(std::make_unique<ExrWriter>(options.path, film.display(), film.crop(),
-                                       named(channels_.formats(), options.exr.names),
+                                       named(channels_.formats(options), options.exr.names),
                                        channels_.exr_options(frame, options))) {}
 
 void BandWriter::write(std::size_t band) {
-    try {
-        const ImageStrip strip = film_.band(band);
-        if (channels_.adds_any()) {
-            const Image rows = channels_.rows(strip, strip.data.y0, strip.data.y1);
-            write_rows(*exr_, strip_of(rows));
-        } else {
-            write_rows(*exr_, strip);
-        }
-    } catch (...) {
-        has_failed_ = true;
-        throw;
-    }
-    film_.close(band);
+    const ImageStrip strip = film_.band(band);
+    if (!channels_.adds_any()) return write_rows(*exr_, strip);
+    const Image rows = channels_.rows(strip, strip.data.y0, strip.data.y1);
+    write_rows(*exr_, strip_of(rows));
 }
 
 BandWriter::~BandWriter() = default;

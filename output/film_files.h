@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -20,7 +19,9 @@ namespace burin {
 struct OutputOptions {
     std::string path;
     OutputFormat format = OutputFormat::exr;
-    int bits = 8;  ///< PNG and TIFF: 8 or 16
+    bool is_deep = false;    ///< a deep EXR, which DeepWriter writes
+    bool has_beauty = true;  ///< of an EXR: if the film has it for another file, it may be left out
+    int bits = 8;            ///< PNG and TIFF: 8 or 16
     int threads = 1;
     ExrChoice exr = {};
     std::string fingerprint = {};  ///< of what the picture is made from; empty: the file has none
@@ -33,7 +34,8 @@ class FilmChannels {
     /// Both must outlive it.
     FilmChannels(const Frame& frame, const Film& film);
 
-    std::vector<ChannelFormat> formats() const;
+    /// Those of an EXR have no name where they are left out.
+    std::vector<ChannelFormat> formats(const OutputOptions& options) const;
     /// The options of an EXR with these channels, named as was chosen.
     ExrOptions exr_options(const Frame& frame, const OutputOptions& options) const;
     /// Whether rows of the film lack channels.
@@ -69,20 +71,18 @@ DisplayImage displayed(const PictureSettings& picture, const Image& image);
 /// has been called. Everything throws InputError.
 class BandWriter {
   public:
-    BandWriter(const Frame& frame, Film& film, const OutputOptions& options);
+    BandWriter(const Frame& frame, const Film& film, const OutputOptions& options);
     ~BandWriter();
-    /// Writes a band and closes it. It is called once for each band, in any order, by any threads at once.
+    /// Writes a band, which is to be closed then. It is called once for each band, in any order, by any threads at
+    /// once.
     void write(std::size_t band);
     /// Puts the file under its name, after all bands are written.
     WrittenFilm finish();
-    /// Whether anything that it was called for has failed.
-    bool has_failed() const { return has_failed_; }
 
   private:
-    Film& film_;
+    const Film& film_;
     FilmChannels channels_;
     std::unique_ptr<ExrWriter> exr_;
-    std::atomic<bool> has_failed_ = false;
 };
 
 }  // namespace burin

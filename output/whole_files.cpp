@@ -133,7 +133,7 @@ std::optional<WholeFile> whole_file_of(std::string_view bytes, OutputFormat form
         case OutputFormat::exr: {
             const ExrContainer file = parse_exr_container({}, bytes);
             const std::string_view fingerprint = file.parts.front().text(kFingerprintName).value_or("");
-            return WholeFile{std::string(fingerprint), file.parts.front().data};
+            return WholeFile{std::string(fingerprint), file.parts.front().data, file.parts.front().is_deep};
         }
         case OutputFormat::png:
             return png_of(bytes);

@@ -12,6 +12,7 @@ namespace burin {
 struct WholeFile {
     std::string fingerprint;        ///< empty: it has none
     std::optional<PixelRect> data;  ///< the pixels that it has; vector files have none
+    bool is_deep = false;
 };
 
 /// Reads what stands at a path, whatever that is. Nothing if it is no regular file of this format, or not a whole one.

@@ -47,8 +47,9 @@ struct Work {
     burin::Options options;
 
     Work(std::array<int, 2> size, std::array<std::int32_t, 4> crop, int samples, const std::string& camera,
-         const burin::Matrix& camera_to_world, double fov_deg, double ortho_height, int frame, int threads,
-         std::uint64_t memory_bytes, const std::string& layers, bool for_paths, bool find_all, py::object progress) {
+         const burin::Matrix& camera_to_world, double fov_deg, double ortho_height, const std::array<double, 2>& shift,
+         double pixel_aspect, int frame, int threads, std::uint64_t memory_bytes, const std::string& layers,
+         bool for_paths, bool find_all, py::object progress) {
         view.width = size[0];
         view.height = size[1];
         view.crop = crop;
@@ -57,6 +58,8 @@ struct Work {
         view.camera_to_world = camera_to_world;
         view.fov_deg = fov_deg;
         view.ortho_height = ortho_height;
+        view.shift = shift;
+        view.pixel_aspect = pixel_aspect;
         view.frame = frame;
         options.threads = threads;
         options.memory_bytes = memory_bytes;
@@ -240,16 +243,19 @@ PYBIND11_MODULE(_core, module) {
     module.doc() = "What the package burin is made of; see burin.";
     module.def("version", [] { return std::string(burin_version()); });
     module.def("abi", &burin_abi);
+    module.def("file_notes", &burin::file_notes);
     translate_errors(module);
     py::module_::import("atexit").attr("register")(py::cpp_function(&end));
     using Unlocked = py::call_guard<py::gil_scoped_release>;
 
     py::class_<Work>(module, "Work")
         .def(py::init<std::array<int, 2>, std::array<std::int32_t, 4>, int, const std::string&, const burin::Matrix&,
-                      double, double, int, int, std::uint64_t, const std::string&, bool, bool, py::object>(),
+                      double, double, const std::array<double, 2>&, double, int, int, std::uint64_t, const std::string&,
+                      bool, bool, py::object>(),
              py::arg("size"), py::arg("crop"), py::arg("samples"), py::arg("camera"), py::arg("camera_to_world"),
-             py::arg("fov_deg"), py::arg("ortho_height"), py::arg("frame"), py::arg("threads"), py::arg("memory_bytes"),
-             py::arg("layers"), py::arg("for_paths"), py::arg("find_all"), py::arg("progress"));
+             py::arg("fov_deg"), py::arg("ortho_height"), py::arg("shift"), py::arg("pixel_aspect"), py::arg("frame"),
+             py::arg("threads"), py::arg("memory_bytes"), py::arg("layers"), py::arg("for_paths"), py::arg("find_all"),
+             py::arg("progress"));
 
     py::class_<burin::Picture>(module, "Picture")
         .def("channel_names", &burin::Picture::channel_names)

@@ -63,7 +63,7 @@ void put_means(const float* sums, std::size_t count, float pictures, std::uint16
 }  // namespace
 
 LayerSet layers_with_mean(LayerSet layers) {
-    layers.depth = layers.normal = layers.ids = false;
+    layers.depth = layers.normal = layers.ids = layers.line = layers.motion = false;
     return layers;
 }
 

@@ -141,7 +141,8 @@ Film::Film(PixelRect display, PixelRect crop, const LayerSet& layers, LineClassS
       blocks_(columns_ * ((static_cast<std::size_t>(std::max(crop.height() - 1, 0)) >> row_shift) + 1)),
       pool_(std::make_unique<Pool>()) {
     for (const ChannelFormat& channel : channels()) bytes_per_pixel_ += size_of(channel.type);
-    if (layers.crypto.has_any() || layers.line) mattes_ = std::make_unique<Mattes>(crop, layers.crypto, layers.line);
+    const MatteWishes wishes{layers.crypto, layers.line, layers.deep, layers.deep_hidden};
+    if (wishes.has_any()) mattes_ = std::make_unique<Mattes>(crop, wishes);
 }
 
 Film::~Film() = default;

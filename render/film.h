@@ -37,6 +37,8 @@ struct LayerSet {
     int crypto_ranks = 6;        ///< how many names a pixel has room for, in each of them
     bool line = false;           ///< line.object ...: the line that covers most of a pixel
     bool motion = false;         ///< forward.u forward.v
+    bool deep = false;           ///< samples of a deep file, beside all channels
+    bool deep_hidden = false;    ///< hidden lines among them
 };
 
 /// What a method finds out about one pixel. Colours are linear and premultiplied.

@@ -51,6 +51,7 @@ class SceneLoader {
         scene_.picture = from_.picture;
         scene_.frame = from_.frame;
         scene_.crypto = from_.crypto;
+        scene_.deep = from_.deep;
         scene_.shutter = from_.shutter;
         scene_.lines = from_.lines;
         scene_.sheet = from_.sheet;

@@ -48,6 +48,11 @@ struct CryptoSettings {
     int ranks = 6;  ///< how many names a pixel has room for: even, 2 to 16
 };
 
+struct DeepSettings {
+    bool is_float = false;         ///< colours and alphas in single precision, else in half
+    bool has_lines_behind = true;  ///< hidden lines are samples behind surfaces
+};
+
 /// Where a smooth surface turns away from the eye.
 enum class Contours : std::uint8_t {
     mesh,    ///< along the edges between polygons that face apart
@@ -92,6 +97,7 @@ struct Scene {
     PictureSettings picture;
     FrameSettings frame;
     CryptoSettings crypto;
+    DeepSettings deep;
     std::optional<ShutterSettings> shutter;  ///< none: pictures show one moment
     LineSettings lines;
     /// How lines look; none: as `lines.style` says. What it says of finding lines stands in `lines`, too (use_sheet()).

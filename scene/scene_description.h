@@ -52,6 +52,7 @@ struct SceneDescription {
     std::optional<Turntable> turntable;
     std::uint64_t hash = 0;  ///< of what its tables say of all frames (hash_of_scene_tables())
     CryptoSettings crypto;
+    DeepSettings deep;
     LineSettings lines;
     std::shared_ptr<const StyleSheet> sheet;
     std::vector<std::string> unread_line_keys;  ///< keys of [lines] that nothing reads beside the sheet

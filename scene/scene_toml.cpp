@@ -83,6 +83,7 @@ class SceneReader {
         if (auto t = root_.table("shutter")) scene_.shutter = read_shutter(*t);
         if (auto t = root_.table("turntable")) scene_.turntable = read_turntable(*t);
         if (auto t = root_.table("crypto")) read_crypto(*t);
+        if (auto t = root_.table("deep")) read_deep(*t);
         if (auto t = root_.table("lines")) scene_.lines = read_line_settings(*t);
         read_style();
         if (auto t = root_.table("surfaces")) {
@@ -298,6 +299,12 @@ class SceneReader {
             if (*ranks % 2 != 0) t.fail("ranks", "must be an even number from 2 to 16");
             scene_.crypto.ranks = static_cast<int>(*ranks);
         }
+        t.finish();
+    }
+
+    void read_deep(TomlReader& t) {
+        scene_.deep.is_float = t.boolean("float").value_or(false);
+        scene_.deep.has_lines_behind = t.choice("hidden", {"behind", "none"}).value_or(0) == 0;
         t.finish();
     }
 

@@ -138,7 +138,9 @@ void draw_seen_through(std::span<const LinePiece* const> layers, int opacity, co
             remove(mask, own.visible);
             remove(mask, own.through);
             unite(own.through, mask);
-            strokes.add(mattes, i, mask, {group_of(false, opacity, line_class), strength, false, true});
+            strokes.add(mattes, i, mask,
+                        {group_of(false, opacity, line_class), strength, false, true, false, 0,
+                         style.color_of(line_class), MatteUse::both, true});
             strokes.spread(i, mask, [&](TileStrokes::Pixel& pixel, float share) {
                 const float coverage = strength * share;
                 pixel.seen_through.color += glm::vec4(style.color_of(line_class), 1.0f) * coverage;
@@ -149,21 +151,29 @@ void draw_seen_through(std::span<const LinePiece* const> layers, int opacity, co
     }
 }
 
-void draw_hidden(std::span<const LinePiece* const> layers, int opacity, const Pen& pen, TileStrokes& strokes,
-                 TileMattes* mattes) {
+/// What mattes are to know of hidden strokes. Those of deep files are all that there are; others are what visible ones
+/// leave of them.
+TileMattes::Kind hidden_kind(int opacity, float strength, const LineStyle& style, MatteUse use) {
+    return {group_of(true, opacity, {}), strength, true, true, false, 0, style.hidden.color, use};
+}
+
+void draw_hidden(std::span<const LinePiece* const> layers, int opacity, const Pen& pen, const LineStyle& style,
+                 TileStrokes& strokes, TileMattes* mattes) {
     const auto is_it = [&](const LinePiece& s) { return s.is_hidden() && s.seen_opacity() == opacity; };
     const float strength = pen.strength * static_cast<float>(opacity) / 255.0f;
     strokes.draw(layers, pen.radius_px, is_it, [&](std::size_t i, StrokeMask mask) {
         TileStrokes::Pixel& own = strokes.pixel(i);
         remove(mask, own.hidden);
         unite(own.hidden, mask);
+        if (mattes != nullptr && mattes->wants_deep_hidden())
+            strokes.add(mattes, i, mask, hidden_kind(opacity, strength, style, MatteUse::deep));
         strokes.spread(i, mask, [&](TileStrokes::Pixel& pixel, float share) {
             pixel.hidden_share += strength * share;
             pixel.is_touched = true;
         });
         remove(mask, own.visible);
         remove(mask, own.through);
-        strokes.add(mattes, i, mask, {group_of(true, opacity, {}), strength, true, true});
+        strokes.add(mattes, i, mask, hidden_kind(opacity, strength, style, MatteUse::flat));
         strokes.spread(i, mask, [&](TileStrokes::Pixel& pixel, float share) { pixel.hidden_seen += strength * share; });
     });
 }
@@ -259,7 +269,7 @@ class HiddenStrokes::Worker {
         std::sort(opacities.rbegin(), opacities.rend());
         opacities.erase(std::unique(opacities.begin(), opacities.end()), opacities.end());
         for (const int o : opacities) draw_seen_through(list, o, pen_, style_, strokes_, mattes_);
-        for (const int o : opacities) draw_hidden(list, o, hidden_pen_, strokes_, mattes_);
+        for (const int o : opacities) draw_hidden(list, o, hidden_pen_, style_, strokes_, mattes_);
         for (const std::size_t i : strokes_.used()) {
             TileStrokes::Pixel& pixel = strokes_.pixel(i);
             const int x = rect.x0 + static_cast<int>(i) % rect.width();
@@ -289,8 +299,10 @@ class HiddenStrokes::Worker {
             if (mattes_ != nullptr) {
                 StrokeMask seen = *mask;
                 remove(seen, taken_by(visible, column, row));
-                mattes_->add(column, row, seen,
-                             {group_of(true, list.front()->seen_opacity(), {}), strength, true, true});
+                const int opacity = list.front()->seen_opacity();
+                mattes_->add(column, row, seen, hidden_kind(opacity, strength, style_, MatteUse::flat));
+                if (mattes_->wants_deep_hidden())
+                    mattes_->add(column, row, *mask, hidden_kind(opacity, strength, style_, MatteUse::deep));
             }
             if (!visible.is_touched(column, row)) {  // mostly
                 film.draw_hidden(x, y, inks[static_cast<std::size_t>(strokes_.count(*mask))]);

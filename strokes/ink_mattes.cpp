@@ -8,7 +8,9 @@ namespace burin {
 void InkMattes::add(const InkTile& tile) {
     tile.for_touched([&](int column, int row) {
         find_spots(tile, column, row);
-        lay(column, row);
+        if (tile_mattes_.wants_shares() || tile_mattes_.wants_spots()) lay(column, row);
+        if (tile_mattes_.wants_deep()) lay_deep(column, row, false);
+        if (tile_mattes_.wants_deep_hidden()) lay_deep(column, row, true);
     });
     tile_mattes_.finish();
 }
@@ -44,6 +46,7 @@ void InkMattes::find_spots(const InkTile& tile, int column, int row) {
                          record.multiplies};
             if (record.is_plain) spot = {&record.mask, {}, plan_.looks[record.stroke].strength, true};
             add(record.rank, record.chain, line, spot);
+            spots_.back().is_behind = lines_.strokes[record.stroke].is_behind;
         });
     }
     std::sort(spots_.begin(), spots_.end(), [](const Placed& a, const Placed& b) {
@@ -83,6 +86,33 @@ void InkMattes::lay(int column, int row) {
             if (taken > 0) tile_mattes_.add_share(column, row, all, placed.line, kind);
         }
         if (tile_mattes_.wants_spots()) tile_mattes_.add_spot(column, row, placed.line, taken);
+    }
+}
+
+/// Lays the hidden strokes of a pixel, or the others, upon each other for a deep file: each adds what all together make
+/// of a surface's colour, less than before. What lies behind glass is below: its place is behind that.
+void InkMattes::lay_deep(int column, int row, bool are_hidden) {
+    regions_.reset();
+    const auto ink_of = [](const InkStack& stack, float sign) {
+        return DeepInk{1.0f - stack.left, stack.color, stack.through - stack.left, stack.tint}.scaled(sign);
+    };
+    StrokeMask all;
+    all.rows.fill(~0u);
+    for (const Placed& placed : spots_) {
+        if (placed.spot.is_hidden != are_hidden) continue;
+        TileMattes::Kind kind;
+        kind.is_hidden = are_hidden;
+        kind.is_behind = placed.is_behind && !are_hidden;
+        const auto add_now = [&](float sign) {
+            if (tile_mattes_.filter() == nullptr)
+                return tile_mattes_.add_deep(column, row, all, placed.line, kind, ink_of(regions_.mean(), sign));
+            regions_.for_regions([&](const StrokeMask& mask, int, const InkStack& stack) {
+                tile_mattes_.add_deep(column, row, mask, placed.line, kind, ink_of(stack, sign));
+            });
+        };
+        add_now(-1);
+        regions_.lay_below(placed.spot);
+        add_now(1);
     }
 }
 

@@ -32,9 +32,11 @@ class InkMattes {
         std::uint64_t chain;
         InkSpot spot;
         OwnerMasks::Line line;
+        bool is_behind = false;  ///< some surface is in front of it, be it glass
     };
     void find_spots(const InkTile& tile, int column, int row);
     void lay(int column, int row);
+    void lay_deep(int column, int row, bool are_hidden);
 
     const InkedLines& lines_;
     const InkPlan& plan_;

@@ -89,6 +89,7 @@ class StrokePrinter::Printer {
                                      kind.group = group_of(c, of_255);
                                      kind.strength = opacity * strokes_.pen().strength;
                                      kind.is_opaque = of_255 == 255;
+                                     kind.color = style_.color_of(c);
                                      mattes_->add(column, row, mask, kind);
                                  });
         });

@@ -3,28 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "strokes/line_shares.h"
+
 namespace burin {
 namespace {
 
-constexpr float kSteps = 1 << 14;
 constexpr double kExactUnit = static_cast<double>(std::int64_t{1} << 40);
 constexpr float kMaskSamples = StrokeMask::kRows * StrokeMask::kColumns;
-
-/// Brings shares above 0 so that their sum stays, where it is from 0 to 1.
-template <typename Chosen>
-void clamp_sum(std::vector<LineShare>& lines, const Chosen& is_chosen) {
-    float sum = 0, positive = 0;
-    for (LineShare& line : lines) {
-        if (!is_chosen(line)) continue;
-        sum += line.share;
-        line.share = std::max(line.share, 0.0f);
-        positive += line.share;
-    }
-    const float scale = positive > 0 ? std::clamp(sum, 0.0f, 1.0f) / positive : 0.0f;
-    for (LineShare& line : lines) {
-        if (is_chosen(line)) line.share *= scale;
-    }
-}
 
 }  // namespace
 
@@ -47,6 +32,7 @@ void TileMattes::begin(PixelRect tile) {
     used_.clear();
     const auto count = static_cast<std::size_t>(tile.width()) * static_cast<std::size_t>(tile.height());
     if (pixels_.size() < count) pixels_.resize(count);
+    if (mattes_.wants_deep()) deep_.begin(tile);
 }
 
 void TileMattes::add_piece(const LinePiece& piece, double radius_px, double width_px, std::uint32_t group) {
@@ -78,20 +64,33 @@ void TileMattes::add_to(int x, int y, const OwnerMasks::Line& line, const Kind& 
         {{mattes_.place_of(x, y), line.drawn_as, kind.is_hidden, kind.is_below, kind.set, line.owner, 0}, exact});
 }
 
-void TileMattes::add_share(int column, int row, const StrokeMask& samples, const OwnerMasks::Line& line,
-                           const Kind& kind) {
+template <typename Use>
+void TileMattes::spread(int column, int row, const StrokeMask& samples, const Use& use) const {
     const int x = owners_.rect().x0 + column, y = owners_.rect().y0 + row;
-    if (filter_ == nullptr) {
-        add_to(x, y, line, kind, kind.strength * (static_cast<float>(count(samples)) / kMaskSamples));
-        return;
-    }
+    if (filter_ == nullptr) return use(x, y, static_cast<float>(count(samples)) / kMaskSamples);
     const FilterTable::Shares shares = filter_->shares_of(samples);
     for (int dy = 0; dy < FilterTable::kSide; ++dy) {
         for (int dx = 0; dx < FilterTable::kSide; ++dx) {
-            add_to(x + dx - FilterTable::kReach, y + dy - FilterTable::kReach, line, kind,
-                   kind.strength * shares[static_cast<std::size_t>(dy)][static_cast<std::size_t>(dx)]);
+            use(x + dx - FilterTable::kReach, y + dy - FilterTable::kReach,
+                shares[static_cast<std::size_t>(dy)][static_cast<std::size_t>(dx)]);
         }
     }
+}
+
+void TileMattes::add_share(int column, int row, const StrokeMask& samples, const OwnerMasks::Line& line,
+                           const Kind& kind) {
+    spread(column, row, samples, [&](int x, int y, float share) { add_to(x, y, line, kind, kind.strength * share); });
+}
+
+void TileMattes::add_deep(int column, int row, const StrokeMask& samples, const OwnerMasks::Line& line,
+                          const Kind& kind, const DeepInk& ink) {
+    const DeepShares::Place place{kind.is_hidden, kind.is_below, kind.is_behind,
+                                  static_cast<float>(projection_.distance(static_cast<double>(line.nearness)))};
+    spread(column, row, samples, [&](int x, int y, float share) {
+        if (share == 0) return;
+        deep_.add(x, y, line, place, ink.scaled(share));
+        if (kind.is_opaque) deep_.add_opaque(x, y, ink.share * share);
+    });
 }
 
 void TileMattes::add_spot(int column, int row, const OwnerMasks::Line& line, float coverage) {
@@ -105,30 +104,14 @@ void TileMattes::add_spot(int column, int row, const OwnerMasks::Line& line, flo
 }
 
 void TileMattes::add(int column, int row, const StrokeMask& seen, const Kind& kind) {
+    const bool is_flat = kind.use != MatteUse::deep, is_deep = kind.use != MatteUse::flat && mattes_.wants_deep();
+    if (!is_deep && !(is_flat && (mattes_.wants_shares() || mattes_.wants_spots()))) return;
     owners_.split(column, row, kind.group, seen, [&](const OwnerMasks::Line& line, const StrokeMask& samples) {
-        if (mattes_.wants_shares()) add_share(column, row, samples, line, kind);
-        if (mattes_.wants_spots())
+        if (is_flat && mattes_.wants_shares()) add_share(column, row, samples, line, kind);
+        if (is_flat && mattes_.wants_spots())
             add_spot(column, row, line, kind.strength * (static_cast<float>(count(samples)) / kMaskSamples));
+        if (is_deep) add_deep(column, row, samples, line, kind, {kind.strength, kind.color * kind.strength, {}, {}});
     });
-}
-
-/// Cuts off what a filter's negative lobes take away, and makes what lies below visible strokes a share of what these
-/// leave, as it is drawn.
-void TileMattes::bring_into_range(std::vector<LineShare>& lines, float opaque) const {
-    const auto is_above = [](const LineShare& line) { return !line.is_below; };
-    const auto is_below = [](const LineShare& line) { return line.is_below; };
-    if (filter_ != nullptr) {
-        clamp_sum(lines, is_above);
-        clamp_sum(lines, is_below);
-    }
-    float below = 0;
-    for (const LineShare& line : lines) below += line.is_below ? line.share : 0;
-    if (below == 0) return;
-    const float left = 1.0f - std::clamp(opaque, 0.0f, 1.0f);
-    const float scale = left > 0 ? std::min(1.0f / left, 1.0f / std::max(below, 1e-6f)) : 0.0f;
-    for (LineShare& line : lines) {
-        if (line.is_below) line.share *= scale;
-    }
 }
 
 void TileMattes::finish() {
@@ -142,13 +125,13 @@ void TileMattes::finish() {
         }
         std::sort(lines_.begin(), lines_.end(),
                   [](const LineShare& a, const LineShare& b) { return key_of(a) < key_of(b); });
-        bring_into_range(lines_, to_float(pixels_[i].opaque));
+        bring_into_range(lines_, to_float(pixels_[i].opaque), filter_ != nullptr);
         for (LineShare& line : lines_) {
-            // Finer steps would show how crops round.
-            line.share = std::round(line.share * kSteps) / kSteps;
+            line.share = in_share_steps(line.share);
             if (line.share > 0) batch_.lines.push_back(line);
         }
     }
+    if (mattes_.wants_deep()) deep_.finish(mattes_, filter_ != nullptr, batch_);
     mattes_.add(batch_);
 }
 

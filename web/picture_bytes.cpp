@@ -29,8 +29,7 @@ std::uint32_t code_of(PixelBits bits, const glm::vec3& paper) {
     const auto part = [&](int i) { return float_from_half(static_cast<std::uint16_t>(bits >> 16 * i)); };
     const float alpha = part(3);
     std::uint32_t code = 0;
-    for (int c = 0; c < 3; ++c)
-        code |= std::uint32_t{eight_bits(part(c) + (1 - alpha) * paper[c])} << 8 * c;
+    for (int c = 0; c < 3; ++c) code |= std::uint32_t{eight_bits(part(c) + (1 - alpha) * paper[c])} << 8 * c;
     return code;
 }
 
@@ -59,72 +58,74 @@ class SeenPixels {
     std::array<std::uint32_t, std::size_t{1} << kLogSize> codes_;
 };
 
+/// The parts of pixels, of all rows one after the other.
 struct HalfPlanes {
     const std::uint16_t* of[4];
 
+    explicit HalfPlanes(const Image& image) {
+        const char* const names[4] = {"R", "G", "B", "A"};
+        for (std::size_t c = 0; c < 4; ++c) of[c] = image.find(names[c])->as<std::uint16_t>().data();
+    }
     PixelBits at(std::size_t i) const {
         return PixelBits{of[0][i]} | PixelBits{of[1][i]} << 16 | PixelBits{of[2][i]} << 32 | PixelBits{of[3][i]} << 48;
     }
-    /// Whether pixels [i, i + 4) all have these bits.
-    bool has_four(std::size_t i, const std::array<std::uint64_t, 4>& repeated) const {
-        std::uint64_t differing = 0;
-        for (std::size_t c = 0; c < 4; ++c) {
-            std::uint64_t four;
-            std::memcpy(&four, of[c] + i, sizeof four);
-            differing |= four ^ repeated[c];
+    /// How many pixels from `i` on have these bits, in steps of four.
+    std::size_t alike(std::size_t i, std::size_t end, PixelBits bits) const {
+        std::array<std::uint64_t, 4> four;
+        for (std::size_t c = 0; c < 4; ++c) four[c] = (bits >> 16 * c & 0xFFFF) * 0x0001000100010001u;
+        std::size_t at = i;
+        for (; at + 4 <= end; at += 4) {
+            std::uint64_t differing = 0;
+            for (std::size_t c = 0; c < 4; ++c) {
+                std::uint64_t here;
+                std::memcpy(&here, of[c] + at, sizeof here);
+                differing |= here ^ four[c];
+            }
+            if (differing != 0) break;
         }
-        return differing == 0;
+        return at - i;
     }
 };
 
-/// Each part of a pixel four times.
-std::array<std::uint64_t, 4> repeated(PixelBits bits) {
-    std::array<std::uint64_t, 4> result;
-    for (std::size_t c = 0; c < 4; ++c) result[c] = (bits >> 16 * c & 0xFFFF) * 0x0001000100010001u;
-    return result;
+/// Calls put(pixel, count, code) for the runs of equal pixels of a row, from the left, until it returns false. Returns
+/// whether it never did.
+template <typename Put>
+bool for_runs(const HalfPlanes& planes, std::size_t begin, std::size_t end, SeenPixels& seen, const Put& put) {
+    for (std::size_t i = begin; i < end;) {
+        const PixelBits bits = planes.at(i);
+        const std::size_t count = 1 + planes.alike(i + 1, end, bits);
+        if (!put(i, count, seen.code(bits))) return false;
+        i += count;
+    }
+    return true;
 }
 
 }  // namespace
 
-/// Returns whether all of them are grey.
-bool PictureEncoder::find_codes(const Image& image, const PictureSettings& picture) {
-    HalfPlanes planes{};
-    const char* const names[4] = {"R", "G", "B", "A"};
-    for (std::size_t c = 0; c < 4; ++c) planes.of[c] = image.find(names[c])->as<std::uint16_t>().data();
-    const auto count = static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height());
-    codes_.resize(count);
-    SeenPixels seen(picture.background.value_or(glm::vec3(1.0f)));
-    std::uint32_t all_gray = 1;
-    std::size_t i = 0;
-    while (i < count) {
-        if ((i & 0xFFFF) == 0) throw_if_interrupted();
-        const PixelBits bits = planes.at(i);
-        const std::uint32_t code = seen.code(bits);
-        all_gray &= is_gray(code) ? 1u : 0u;
-        codes_[i++] = code;
-        const std::array<std::uint64_t, 4> four = repeated(bits);
-        for (; i + 4 <= count && planes.has_four(i, four); i += 4) std::fill_n(&codes_[i], 4, code);
-    }
-    return all_gray != 0;
-}
-
-/// Rows of a PNG of one channel: each behind the number of its filter, which is none.
-void PictureEncoder::find_gray_rows(std::size_t width) {
-    const std::size_t height = codes_.size() / width;
-    rows_.resize(height * (width + 1));
-    std::uint8_t* out = rows_.data();
-    const std::uint32_t* code = codes_.data();
-    for (std::size_t y = 0; y < height; ++y) {
-        *out++ = 0;
-        for (std::size_t x = 0; x < width; ++x) *out++ = static_cast<std::uint8_t>(*code++);
-    }
-}
-
 PictureBytes PictureEncoder::encode(const Image& image, const PictureSettings& picture) {
-    const bool is_all_gray = find_codes(image, picture);
-    if (!is_all_gray) return {"qoi", qoi_of(codes_, image.width(), image.height())};
-    find_gray_rows(static_cast<std::size_t>(image.width()));
-    return {"png", gray_png_of(deflater_.compress(rows_), image.width(), image.height())};
+    const HalfPlanes planes(image);
+    const auto width = static_cast<std::size_t>(image.width()), height = static_cast<std::size_t>(image.height());
+    SeenPixels seen(picture.background.value_or(glm::vec3(1.0f)));
+    rows_.resize((width + 1) * height);
+    bool is_all_gray = true;
+    for (std::size_t y = 0; y < height && is_all_gray; ++y) {
+        throw_if_interrupted();
+        std::uint8_t* const row = &rows_[y * (width + 1)];
+        row[0] = 0;
+        is_all_gray =
+            for_runs(planes, y * width, (y + 1) * width, seen, [&](std::size_t i, std::size_t count, auto code) {
+                std::memset(row + 1 + (i - y * width), static_cast<int>(code & 0xFF), count);
+                return is_gray(code);
+            });
+    }
+    if (is_all_gray) return {"png", gray_png_of(deflater_.compress(rows_), image.width(), image.height())};
+    codes_.resize(width * height);
+    for_runs(planes, 0, codes_.size(), seen, [&](std::size_t i, std::size_t count, auto code) {
+        std::fill_n(&codes_[i], count, code);
+        return true;
+    });
+    throw_if_interrupted();
+    return {"qoi", qoi_of(codes_, image.width(), image.height())};
 }
 
 }  // namespace burin

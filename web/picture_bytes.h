@@ -24,11 +24,8 @@ class PictureEncoder {
     PictureBytes encode(const Image& image, const PictureSettings& picture);
 
   private:
-    bool find_codes(const Image& image, const PictureSettings& picture);
-    void find_gray_rows(std::size_t width);
-
+    std::vector<std::uint8_t> rows_;    ///< of a PNG: each behind the number of its filter, which is none
     std::vector<std::uint32_t> codes_;  ///< of each pixel: red, green, blue, from the lowest byte on
-    std::vector<std::uint8_t> rows_;
     Deflater deflater_;
 };
 

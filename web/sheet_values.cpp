@@ -2,11 +2,11 @@
 
 #include <cstddef>
 #include <optional>
-#include <sstream>
 
 #include "scene/parse_toml.h"
 #include "scene/sheet_tables.h"
 #include "scene/sheet_toml.h"
+#include "web/toml_text.h"
 
 namespace burin {
 namespace {
@@ -39,12 +39,6 @@ std::optional<std::size_t> offset_of(const std::string& text, const toml::source
     return at;
 }
 
-std::string in_toml(const toml::node& value) {
-    std::ostringstream text;
-    value.visit([&](const auto& concrete) { text << concrete; });
-    return text.str();
-}
-
 std::string with_value(const std::string& text, const Override& change) {
     const toml::table before = tables_of(text);
     toml::table after = before;
@@ -56,11 +50,11 @@ std::string with_value(const std::string& text, const Override& change) {
         const auto begin = offset_of(text, old_value->source().begin), end = offset_of(text, old_value->source().end);
         if (begin && end && *begin < *end) {
             std::string changed = text;
-            changed.replace(*begin, *end - *begin, in_toml(*new_value));
+            changed.replace(*begin, *end - *begin, text_of_toml(*new_value));
             if (tables_of(changed) == after) return changed;
         }
     }
-    return in_toml(after) + "\n";
+    return text_of_toml(after) + "\n";
 }
 
 }  // namespace
@@ -78,7 +72,7 @@ std::string text_in_toml(const std::string& key, const std::string& text) {
     bool is_literal = text.find("'''") == std::string::npos;
     for (const char c : text) is_literal = is_literal && !is_control(c);
     if (is_literal) return key + " = '''\n" + text + "'''\n";
-    return in_toml(toml::table{{key, text}}) + "\n";
+    return text_of_toml(toml::table{{key, text}}) + "\n";
 }
 
 }  // namespace burin

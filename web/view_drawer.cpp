@@ -116,8 +116,8 @@ ExplainedPixel ViewDrawer::explain(const View& view, int x, int y) {
     ExplainedPixel explained;
     with_frame(view, {}, [&](const Frame& frame) {
         explained.fragments = explain_pixel(frame, x, y);
-        explained.lines = frame.sheet ? text_of(explain_strokes(frame, x, y, viewed_.threads()))
-                                      : drawn_by_abuffer(frame, x, y);
+        explained.lines =
+            frame.sheet ? text_of(explain_strokes(frame, x, y, viewed_.threads())) : drawn_by_abuffer(frame, x, y);
     });
     return explained;
 }

@@ -59,8 +59,8 @@ Look read_look(TomlReader& root) {
     look.width_px = root.number("width", {0, 1024, true, false}).value_or(look.width_px);
     static constexpr HiddenStyle kStyles[] = {HiddenStyle::none, HiddenStyle::solid, HiddenStyle::dashed};
     look.hidden = kStyles[root.choice("hidden", {"none", "solid", "dashed"}).value_or(0)];
-    static const std::vector<std::string_view> kShadings = {"", "paper", "lambert", "none", "flat",
-                                                            "toon", "gooch", "hatch"};
+    static const std::vector<std::string_view> kShadings = {"",     "paper", "lambert", "none",
+                                                            "flat", "toon",  "gooch",   "hatch"};
     look.shading = kShadings[root.choice("shading", kShadings).value_or(0)];
     look.style = root.text("style").value_or("");
     look.sheet = root.text("sheet").value_or("");

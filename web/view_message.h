@@ -25,7 +25,7 @@ constexpr std::size_t kMostParameters = 256;
 struct View {
     int width = 0, height = 0;  ///< pixels
     glm::dvec3 eye{0.0}, target{0.0}, up{0.0};
-    double fov_deg = 35;           ///< perspective
+    double fov_deg = 35;                   ///< perspective
     std::optional<double> height_of_view;  ///< orthographic: full visible height in world units
 
     /// As settings of a camera, which has nothing else.

@@ -129,8 +129,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
     void on_request(error_code error) {
         if (error == http::error::header_limit) return send({Verdict::Kind::refusal, 431, {}, {}}, false);
+        if (error == http::error::body_limit) return send({Verdict::Kind::refusal, 413, {}, {}}, false);
         const bool is_gone = error == http::error::end_of_stream || error == http::error::partial_message;
-        if (error && (is_gone || error.category() != make_error_code(http::error::bad_method).category())) return close();
+        if (error && (is_gone || error.category() != make_error_code(http::error::bad_method).category()))
+            return close();
         if (error) return send({Verdict::Kind::refusal, 400, {}, {}}, false);
         const http::request<http::empty_body>& request = parser_->get();
         RequestHead head;
@@ -153,7 +155,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
         response_->result(static_cast<unsigned>(verdict.status));
         response_->version(11);
         const bool is_file = verdict.kind == Verdict::Kind::file;
-        if (!is_file) refusal_ = std::to_string(verdict.status) + " " + std::string(std_view(response_->reason())) + "\n";
+        if (!is_file)
+            refusal_ = std::to_string(verdict.status) + " " + std::string(std_view(response_->reason())) + "\n";
         const std::string_view text = is_file ? verdict.text : std::string_view(refusal_);
         response_->set(http::field::content_type,
                        beast::string_view(is_file ? verdict.type.data() : "text/plain; charset=utf-8",
@@ -166,11 +169,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
         response_->body() = {text.data(), text.size()};
         response_->prepare_payload();
         stream_.expires_after(kAnswerTime);
-        http::async_write(stream_, *response_,
-                          [self = shared_from_this(), keeps_alive](error_code error, std::size_t) {
-                              if (error || !keeps_alive) return self->close();
-                              self->read_request();
-                          });
+        http::async_write(stream_, *response_, [self = shared_from_this(), keeps_alive](error_code error, std::size_t) {
+            if (error || !keeps_alive) return self->close();
+            self->read_request();
+        });
     }
 
     void become_socket() {
@@ -185,13 +187,14 @@ class Connection : public std::enable_shared_from_this<Connection> {
         socket_->auto_fragment(false);
         socket_->write_buffer_bytes(1 << 16);
         // The session's thread sends by way of the server's.
-        session_ = std::make_unique<ViewSession>(
-            server_.scene, [weak = weak_from_this(), &io = server_.io](ViewAnswer answer) {
-                auto shared = std::make_shared<ViewAnswer>(std::move(answer));
-                asio::post(io, [weak, shared] {
-                    if (const auto self = weak.lock()) self->queue(std::move(*shared));
-                });
-            });
+        session_ = std::make_unique<ViewSession>(server_.scene,
+                                                 [weak = weak_from_this(), &io = server_.io](ViewAnswer answer) {
+                                                     auto shared = std::make_shared<ViewAnswer>(std::move(answer));
+                                                     asio::post(io, [weak, shared] {
+                                                         if (const auto self = weak.lock())
+                                                             self->queue(std::move(*shared));
+                                                     });
+                                                 });
         socket_->async_accept(parser_->get(), [self = shared_from_this()](error_code error) {
             if (error) return self->close();
             self->is_open_ = true;
@@ -287,7 +290,7 @@ ViewServer::~ViewServer() = default;
 std::string ViewServer::url() const { return inner_->gate->url(); }
 
 void ViewServer::run() {
-    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
         struct sigaction action {};
         const bool is_ignored =
             number == SIGHUP && sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;

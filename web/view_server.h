@@ -20,7 +20,7 @@ class ViewServer {
 
     /// Where the page is. Who knows it can look.
     std::string url() const;
-    /// Answers until a signal asks the program to end (SIGINT, SIGTERM, SIGHUP unless it is ignored), or stop().
+    /// Answers until a signal asks the program to end, as install_interrupt_handlers() has them, or stop().
     void run();
     /// Any thread may call it.
     void stop();

@@ -25,10 +25,9 @@ std::optional<double> first_frame(const SceneDescription& scene) {
 Scene load(SceneDescription description, const ViewedSceneOptions& options) {
     const std::optional<double> frame = first_frame(description);
     const bool is_at_rest = description.frame_range.empty();
-    AnimatedScene loaded = load_animated_scene(std::move(description), {.threads = options.threads,
-                                                                        .keeps_attributes = true,
-                                                                        .budget = options.budget,
-                                                                        .first_frame = frame});
+    AnimatedScene loaded = load_animated_scene(
+        std::move(description),
+        {.threads = options.threads, .keeps_attributes = true, .budget = options.budget, .first_frame = frame});
     if (loaded.animation.moves() && !is_at_rest) {
         apply(loaded.animation.at(*frame), loaded.scene);
     } else {
@@ -73,7 +72,8 @@ View ViewedScene::view_of(const CameraSettings& settings, int width, int height)
     const glm::dvec3 center = 0.5 * (box_.low + box_.high);
     const double radius = std::max(0.5 * glm::distance(box_.low, box_.high), 1e-9);
     double distance = glm::dot(view.eye - center, back);
-    if (settings.eye && settings.target && !settings.to_world) distance = glm::distance(*settings.eye, *settings.target);
+    if (settings.eye && settings.target && !settings.to_world)
+        distance = glm::distance(*settings.eye, *settings.target);
     view.target = view.eye - std::max(distance, 0.01 * radius) * back;
     view.up = settings.to_world ? glm::dvec3(camera.to_world[1]) : settings.up.value_or(glm::dvec3(0, 1, 0));
     view.fov_deg = camera.fov_deg;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <sstream>
 #include <utility>
 
 #include "base/error.h"
@@ -14,6 +13,7 @@
 #include "scene/sheet_toml.h"
 #include "web/command_text.h"
 #include "web/sheet_values.h"
+#include "web/toml_text.h"
 
 namespace burin {
 
@@ -84,8 +84,8 @@ void apply_look(const Look& look, const Look& plain, toml::table& root) {
 
 /// Puts a view into the tables of a scene, in the place of its cameras and its paper. `shift`: of its camera's lens.
 void apply_view(const View& view, const glm::dvec2& shift, double dpi, toml::table& root) {
-    toml::table camera{{"name", "view"}, {"eye", array_of(view.eye)}, {"target", array_of(view.target)},
-                       {"up", array_of(view.up)}};
+    toml::table camera{
+        {"name", "view"}, {"eye", array_of(view.eye)}, {"target", array_of(view.target)}, {"up", array_of(view.up)}};
     if (view.height_of_view) {
         camera.insert("height", *view.height_of_view);
     } else {
@@ -192,18 +192,17 @@ std::string ViewedTables::scene_text(const Look& look, const View& view) const {
     apply_view(view, shift, description.picture.dpi, root);
     make_paths_absolute(tables_->place.folder, root);
     root.erase("style");
-    std::ostringstream text;
+    std::string text;
     if (look.has_sheet() && look.sheet.empty() && look.parameters.empty()) {
         const ChosenSheet& sheet = sheet_named(look.style);
-        text << toml::table{{"style", sheet.file.empty() ? sheet.name : sheet.file}} << "\n";
+        text = text_of_toml(toml::table{{"style", sheet.file.empty() ? sheet.name : sheet.file}}) + "\n";
     } else if (look.has_sheet()) {
         const std::string& sheet = look.sheet.empty() ? sheet_named(look.style).text : look.sheet;
         std::string with_values = sheet_with_values(sheet, look.parameters);
         if (with_values.empty() || with_values.back() != '\n') with_values += '\n';
-        text << text_in_toml("style", with_values) << "\n";
+        text = text_in_toml("style", with_values) + "\n";
     }
-    text << root << "\n";
-    return text.str();
+    return text + text_of_toml(root) + "\n";
 }
 
 bool ViewedTables::is_plain() const {
@@ -243,8 +242,8 @@ std::optional<std::string> ViewedTables::command(const Look& look, const View& v
         command.add("--crease-angle", look.crease_angle_deg);
     if (look.has_sheet()) {
         const bool is_of_scene = input_.style.empty() && look.style == first_look_.style;
-        if (!is_of_scene) command.add("--style", sheet_named(look.style).file.empty() ? look.style
-                                                                                      : sheet_named(look.style).file);
+        if (!is_of_scene)
+            command.add("--style", sheet_named(look.style).file.empty() ? look.style : sheet_named(look.style).file);
         for (const auto& [key, value] : look.parameters) command.add("--set", "style." + key + "=" + value);
     } else {
         if (!first_look_.style.empty() && input_.style.empty()) return std::nullopt;  // the scene has a sheet

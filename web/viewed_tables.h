@@ -11,8 +11,8 @@ namespace burin {
 
 /// A style sheet that a page may choose.
 struct ChosenSheet {
-    std::string name;     ///< built in or of the user's folders; or the file that the scene or the command line names
-    std::string file;     ///< absolute path; empty: it is a part of the program
+    std::string name;  ///< built in or of the user's folders; or the file that the scene or the command line names
+    std::string file;  ///< absolute path; empty: it is a part of the program
     std::string summary;
     std::string text;
 };

@@ -62,6 +62,15 @@ class TransparentTile {
     }
 
   private:
+    /// What one material of one object has in a pixel, summed over samples.
+    struct Share {
+        MatteOwner owner;
+        float sum = 0;
+        glm::vec3 color{0.0f};  // times the share
+        double distance = 0;
+        int samples = 0;
+    };
+
     SurfaceId surface(std::uint32_t value) const { return screen_.surface_of(value & ~OccluderBins::kClipped); }
     float opacity(std::uint32_t value) const { return frame_.material_of(surface(value)).opacity; }
     SampleView view() {
@@ -151,7 +160,8 @@ class TransparentTile {
     }
 
     void composite(Film& film) {
-        has_mattes_ = film.mattes() != nullptr && film.mattes()->wants_surfaces() &&
+        const Mattes* const mattes = film.mattes();
+        has_mattes_ = mattes != nullptr && (mattes->wants_surfaces() || mattes->wants_deep()) &&
                       frame_.scene->surfaces.shading != SurfaceShading::none;
         const int s = samples_.samples_per_pixel;
         // Where each row of pixels begins in transparent_; sorted by sample, so rows of samples follow each other.
@@ -169,10 +179,7 @@ class TransparentTile {
                 }
                 if (!any) continue;
                 film.replace_surface(x, y, sum / static_cast<float>(s * s));
-                for (const Share& share : shares_) {
-                    film.mattes()->put_surface(x, x + 1, y, share.owner, share.sum / static_cast<float>(s * s), true,
-                                               batch_);
-                }
+                for (const Share& share : shares_) add_to_batch(share, x, y, *film.mattes());
             }
         }
         if (film.mattes() != nullptr) film.mattes()->add(batch_);
@@ -185,26 +192,37 @@ class TransparentTile {
         for (; at != transparent_.end() && at->sample == sample; ++at) {
             any = true;
             const float o = opacity(at->number);
-            color += surface_at(at->number, x, y) * (left * o);
-            if (has_mattes_) add_share(at->number, left * o);
+            const glm::vec4 own = surface_at(at->number, x, y) * (left * o);
+            color += own;
+            if (has_mattes_) add_share(at->number, left * o, at->nearness, own);
             left *= 1 - o;
         }
         const std::uint32_t id = samples_.ids[sample];
         if (id == SampleTile::kBackground) return color;
-        if (has_mattes_) add_share(id >> 1, left);
-        return color + surface_at(id >> 1, x, y) * left;
+        const glm::vec4 own = surface_at(id >> 1, x, y) * left;
+        if (has_mattes_) add_share(id >> 1, left, samples_.nearness[sample], own);
+        return color + own;
     }
 
-    void add_share(std::uint32_t number, float share) {
+    void add_share(std::uint32_t number, float share, float nearness, const glm::vec4& color) {
         const SurfaceId id = screen_.surface_of(number);
         const MatteOwner owner{frame_.surfaces.object_id(id), frame_.surfaces.material_id(id)};
-        const auto known =
-            std::find_if(shares_.begin(), shares_.end(), [&](const Share& s) { return s.owner == owner; });
-        if (known == shares_.end()) {
-            shares_.push_back({owner, share});
-        } else {
-            known->sum += share;
-        }
+        auto known = std::find_if(shares_.begin(), shares_.end(), [&](const Share& s) { return s.owner == owner; });
+        if (known == shares_.end()) known = shares_.insert(shares_.end(), {owner});
+        known->sum += share;
+        known->color += glm::vec3(color);
+        const double whole = frame_.surfaces.farthest_nearness + static_cast<double>(nearness);
+        known->distance += frame_.surfaces.projection.distance(whole);
+        ++known->samples;
+    }
+
+    void add_to_batch(const Share& share, int x, int y, const Mattes& mattes) {
+        const auto all = static_cast<float>(samples_.samples_per_pixel * samples_.samples_per_pixel);
+        if (mattes.wants_surfaces()) mattes.put_surface(x, x + 1, y, share.owner, share.sum / all, true, batch_);
+        if (!mattes.wants_deep()) return;
+        const bool is_opaque = frame_.scene->materials[share.owner.material - 1].opacity == 1;
+        batch_.deep_surfaces.push_back({mattes.place_of(x, y), true, is_opaque, share.owner, share.sum / all,
+                                        static_cast<float>(share.distance / share.samples), share.color / all});
     }
 
     /// The first transparent triangle at a sample or behind it.
@@ -315,10 +333,6 @@ class TransparentTile {
     std::uint32_t last_number_ = ~0u;
     glm::vec4 last_color_{0.0f};
     bool has_mattes_ = false;
-    struct Share {
-        MatteOwner owner;
-        float sum;  // over samples
-    };
     std::vector<Share> shares_;  // of a pixel
     MatteBatch batch_;
     std::optional<FragmentShader> shader_;

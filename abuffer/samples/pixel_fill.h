@@ -47,6 +47,9 @@ class PixelFiller {
     /// Says whose a part's pixels are.
     void add_mattes(const SampleTile& samples, PixelRect rect, Mattes& mattes);
     void find_owners(const SampleTile& samples, int x, int y);
+    /// Says what a deep file has of a part's surfaces.
+    void add_deep(const SampleTile& samples, PixelRect rect, Mattes& mattes);
+    void find_deep(const SampleTile& samples, int x, int y, std::size_t first_fragment);
     const MatteOwner& owner_of(std::uint32_t number);
     void put_motion(const SampleTile& samples, PixelRect rect, int y, Film& film) const;
     void add_fragments(const SampleTile& samples, int x, int y);
@@ -77,6 +80,14 @@ class PixelFiller {
         bool operator==(const Owned&) const = default;
     };
     std::vector<Owned> owned_;  // of a pixel
+    struct Seen {
+        MatteOwner owner;
+        int samples = 0;
+        double distance = 0;    // the sum of its samples
+        glm::vec3 color{0.0f};  // in the same way
+    };
+    std::vector<Seen> seen_;                   // of a pixel
+    std::vector<std::uint32_t> numbers_seen_;  // of triangles, in the order of its fragments
     struct Row {
         std::uint16_t color[4][kWidth];
         static_assert(kWidth % 4 == 0 && kWidth % kRoomBehindHalves == 0);  // see GeometryRow, PlaceKernels

@@ -1,7 +1,6 @@
 """Burin as a render engine of Blender: 3D models as lines. See docs/blender.md."""
 
 import importlib
-import importlib.util
 
 bl_info = {
     "name": "Burin",
@@ -13,23 +12,19 @@ bl_info = {
     "category": "Render",
 }
 
-# Each has register() and unregister(); in this order, for panels need properties and the engine needs none of them.
-MODULES = ("preferences", "properties", "line_sets", "panels", "viewport", "engine")
+# Each has register() and unregister(), in the order in which one needs another.
+MODULES = ("preferences", "properties", "panels", "viewport", "engine")
 
 
 def modules():
-    for name in MODULES:
-        if importlib.util.find_spec("." + name, __name__):
-            yield importlib.import_module("." + name, __name__)
+    return [importlib.import_module("." + name, __name__) for name in MODULES]
 
 
 def register():
     for module in modules():
-        if hasattr(module, "register"):
-            module.register()
+        module.register()
 
 
 def unregister():
-    for module in reversed(list(modules())):
-        if hasattr(module, "unregister"):
-            module.unregister()
+    for module in reversed(modules()):
+        module.unregister()

@@ -1,6 +1,8 @@
-"""Cameras of Blender as fields of burin_view. All follow from the projection matrix, so no case of sensor fit is left."""
+"""Cameras of Blender as fields of burin_view. All follow from the projection matrix: no case of sensor fit is left."""
 
 import math
+
+from mathutils import Matrix
 
 from .core import BurinError
 
@@ -20,6 +22,19 @@ def numbers_of(matrix):
     return tuple(float(x) for row in matrix for x in row)
 
 
+def rigid(matrix, name):
+    """A camera's matrix without its scale. Raises BurinError if more than rotation and position is left."""
+    found = matrix.normalized()
+    rotation = found.to_3x3()
+    off = max(abs(x) for row in rotation.transposed() @ rotation - Matrix.Identity(3) for x in row)
+    if not off < 1e-4:
+        raise BurinError(f"camera {name} is skewed or flattened, as by parents that are scaled along one axis; apply "
+                         "their scale")
+    if rotation.determinant() < 0:
+        raise BurinError(f"camera {name} is mirrored by a negative scale; make it positive")
+    return found
+
+
 def view_of_camera(camera_object, depsgraph, width, height):
     """What the render of a camera object shows: fields of burin_view. The crop is the caller's."""
     camera = camera_object.evaluated_get(depsgraph)
@@ -30,7 +45,7 @@ def view_of_camera(camera_object, depsgraph, width, height):
     render = depsgraph.scene.render
     aspect_x, aspect_y = render.pixel_aspect_x, render.pixel_aspect_y
     projection = camera.calc_matrix_camera(depsgraph, x=width, y=height, scale_x=aspect_x, scale_y=aspect_y)
-    view = {"width": width, "height": height, "camera_to_world": numbers_of(camera.matrix_world.normalized())}
+    view = {"width": width, "height": height, "camera_to_world": numbers_of(rigid(camera.matrix_world, camera.name))}
     view.update(lens_of_projection(projection, camera.data.type == "ORTHO"))
     if aspect_x != aspect_y:
         view["pixel_aspect"] = aspect_x / aspect_y

@@ -73,10 +73,11 @@ class Scene:
         """`points`: float32 x y z; `corners`, `sizes` and `materials` (numbers, one for each polygon): int32; `marks`:
         int32 pairs of points. All lie without gaps. `sizes` None: triangles."""
         mesh = interface.Mesh(
-            size=ctypes.sizeof(interface.Mesh), name=name.encode(), points=address(points), point_count=points.size // 3,
-            corners=address(corners), corner_count=corners.size, polygon_sizes=address(sizes),
-            polygon_count=0 if sizes is None else sizes.size, polygon_materials=address(materials),
-            marked_edges=address(marks), marked_edge_count=0 if marks is None else marks.size // 2)
+            size=ctypes.sizeof(interface.Mesh), name=name.encode(), points=address(points),
+            point_count=points.size // 3, corners=address(corners), corner_count=corners.size,
+            polygon_sizes=address(sizes), polygon_count=0 if sizes is None else sizes.size,
+            polygon_materials=address(materials), marked_edges=address(marks),
+            marked_edge_count=0 if marks is None else marks.size // 2)
         return checked(burin().burin_add_mesh(self.handle, mesh))
 
     def remove_mesh(self, mesh):

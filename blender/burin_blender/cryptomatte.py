@@ -2,15 +2,25 @@
 
 import numpy as np
 
-RANKS = 6  # names that the library keeps for a pixel
-CHANNELS = [f"CryptoObject{i:02}.{letter}" for i in range(RANKS // 2) for letter in "RGBA"]
+FEWEST_RANKS = 6
 
 
-def share_of(names, channel):
+def ranks_of(view_layer):
+    """How many names the library keeps for a pixel: the view layer's levels, but so many that little is left out."""
+    return max(FEWEST_RANKS, (view_layer.pass_cryptomatte_depth + 1) // 2 * 2)
+
+
+def channels_of(ranks):
+    """The channels that say which objects cover a pixel: names, then shares, in turn."""
+    return [f"CryptoObject{i:02}.{letter}" for i in range(ranks // 2) for letter in "RGBA"]
+
+
+def share_of(names, ranks, channel):
     """How much of each pixel objects of some names cover, with their surfaces and lines. `channel(name)`: its array."""
+    channels = channels_of(ranks)
     hashes = np.array([crypto_hash(name) for name in names], np.uint32)
     share = np.float32(0)
-    for hash_channel, part_channel in zip(CHANNELS[::2], CHANNELS[1::2]):
+    for hash_channel, part_channel in zip(channels[::2], channels[1::2]):
         is_named = np.isin(channel(hash_channel).view(np.uint32), hashes)
         share = share + np.where(is_named, channel(part_channel), np.float32(0))
     return share

@@ -7,6 +7,7 @@ import numpy as np
 
 from . import camera, core, line_sets, viewport
 from .child import Cancelled, ChildError, work_in_child
+from .cryptomatte import ranks_of
 from .gather import gather
 from .job import Job
 from .passes import missing_passes, passes_of
@@ -103,7 +104,7 @@ class BurinEngine(bpy.types.RenderEngine):
         if camera_object is None:
             raise core.BurinError("the scene has no camera")
         if scene.render.use_multiview:
-            raise core.BurinError("stereoscopic pictures are not drawn; switch off Stereoscopy in the output properties")
+            raise core.BurinError("stereoscopic pictures are not drawn; switch Stereoscopy off in the output settings")
         width, height = size_of(scene.render)
         view = camera.view_of_camera(camera_object, depsgraph, width, height)
         view["crop"] = crop_of(scene.render, width, height)
@@ -115,6 +116,7 @@ class BurinEngine(bpy.types.RenderEngine):
         self.tell("WARNING", gathered.notes | missing_passes(view_layer) | unsupported(scene, camera_object))
         self.tell("WARNING", line_sets.not_drawn(scene, view_layer))
         job = Job(gathered, view, passes_of(view_layer), sheet, lines)
+        job.crypto_ranks = ranks_of(view_layer)
         job.threads = scene.render.threads if scene.render.threads_mode == "FIXED" else settings.threads
         job.memory_bytes = settings.memory_mb * 1000000
         if not scene.render.film_transparent:

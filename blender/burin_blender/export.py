@@ -61,7 +61,8 @@ class Session:
         if len(numbers) > 1:
             materials = np.array(numbers, np.int32)[np.clip(arrays.slots, 0, len(numbers) - 1)]
         try:
-            return self.scene.add_mesh(arrays.name, arrays.points, arrays.corners, arrays.sizes, materials, arrays.marks)
+            return self.scene.add_mesh(arrays.name, arrays.points, arrays.corners, arrays.sizes, materials,
+                                       arrays.marks)
         except core.BurinError as error:
             raise core.BurinError(f"object {arrays.name}: {error}") from None
 

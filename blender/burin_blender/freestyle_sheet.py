@@ -8,7 +8,7 @@ import math
 
 from .freestyle_modifiers import StyleValues
 from .object_rules import ObjectRules
-from .sheet_text import SheetText, key, number_text, quoted
+from .sheet_text import SheetText, key, list_text, number_text, quoted
 
 SIDED = "(is_silhouette or is_border)"
 # Nature of an edge: condition, and the classes that have to be looked for.
@@ -101,7 +101,7 @@ class FreestyleSheet:
         rules = self.rules.conditions(self.sheet, self.crease_degrees)
         for number, (line_set, condition) in enumerate(self.sets):
             conditions = [c for c in (condition, self.collection_condition(line_set), *rules) if c]
-            entries = [f"name = {quoted(f'{number} {line_set.name}')}", f"classes = {quoted_list(sorted(self.classes))}",
+            entries = [f"name = {quoted(f'{number} {line_set.name}')}", f"classes = {list_text(sorted(self.classes))}",
                        f"qi = {visibility(line_set)}", "also = true", f'style = "style_{number}"']
             if conditions:
                 entries.append(f"select = {quoted(' and '.join(conditions))}")
@@ -134,7 +134,9 @@ class FreestyleSheet:
         pattern = dash_pattern(line_style)
         if pattern:
             entries.append(f"dash = {pattern}")
-        entries.append(f"caps = {quoted('round' if line_style.caps == 'ROUND' and not pattern else 'butt')}")
+        # Freestyle's strokes go on around corners, where Burin's lines may end: round ends close the corner. Dashes
+        # have straight ends there.
+        entries.append(f"caps = {quoted('butt' if pattern else 'round')}")
         if line_style.use_length_min:
             entries.append(f"min_length = {float(line_style.length_min)!r}")
         return entries
@@ -146,10 +148,6 @@ class FreestyleSheet:
                 if slot.material is not None:
                     found[slot.material.name] = slot.material
         return list(found.values())
-
-
-def quoted_list(texts):
-    return "[" + ", ".join(quoted(text) for text in texts) + "]"
 
 
 def objects_of(collection):
@@ -214,7 +212,7 @@ def dash_pattern(line_style):
 def not_carried(style):
     """What of a line style a sheet cannot say."""
     wanted = (
-        (style.caps == "SQUARE", "square caps (butt caps instead)"),
+        (style.caps == "SQUARE", "square caps (round ones instead)"),
         (style.use_chaining and style.chaining == "SKETCHY", "sketchy chaining"),
         (style.use_angle_min or style.use_angle_max, "splitting by angle"),
         (style.use_split_length, "splitting by length"),

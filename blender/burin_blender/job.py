@@ -16,6 +16,7 @@ class Job:
         self.passes = passes
         self.sheet = sheet  # text, name or file of a style sheet, or None
         self.settings = settings  # as burin_set() takes them
+        self.crypto_ranks = cryptomatte.FEWEST_RANKS
         self.threads = 0
         self.memory_bytes = 0
         self.paper = None  # three linear numbers: what is behind the picture; None: nothing
@@ -26,7 +27,7 @@ class Job:
         """The channels that the child gives, each once."""
         names = dict.fromkeys(name for wanted in self.passes for name in channels_of(wanted))
         if self.gathered.holdouts:
-            names.update(dict.fromkeys(cryptomatte.CHANNELS))
+            names.update(dict.fromkeys(cryptomatte.channels_of(self.crypto_ranks)))
         return list(names)
 
     def new_memory(self):
@@ -50,7 +51,7 @@ class Job:
         session = export.Session()
         session.apply(self.gathered)
         session.scene.set_style(self.sheet)
-        for setting in self.settings:
+        for setting in (*self.settings, f"crypto.ranks={self.crypto_ranks}"):
             session.scene.set(setting)
         layers = layers_for(self.passes, bool(self.gathered.holdouts))
         picture = session.scene.render(self.view, layers, self.threads, memory.set_progress, self.memory_bytes)

@@ -6,7 +6,7 @@ import os
 import shutil
 
 SONAME = "libburin.so.0"
-NEEDED_ABI = 5  # BURIN_ABI of the burin.h that interface.py is written after
+NEEDED_ABI = 6  # BURIN_ABI of the burin.h that interface.py is written after
 VERSION = "0.1.0"  # of the add-on
 
 _loaded = None
@@ -43,7 +43,8 @@ def library_of(named):
 def find_library(preference=""):
     """The path of the library: that of the add-on's preference, of $BURIN, of the program `burin` in PATH, or one
     beside the add-on; else its name alone, for the system to find. What is named must be there."""
-    for named, of_what in ((preference, "the add-on's preferences name"), (os.environ.get("BURIN", ""), "$BURIN names")):
+    of_environment = os.environ.get("BURIN", "")
+    for named, of_what in ((preference, "the add-on's preferences name"), (of_environment, "$BURIN names")):
         if named:
             path = library_of(os.path.expanduser(named))
             if path is None:
@@ -55,7 +56,8 @@ def find_library(preference=""):
         return path
     here = os.path.dirname(os.path.realpath(__file__))
     prefix = os.path.join(here, "..", "..", "..", "..")  # of share/burin/blender/burin_blender
-    installed = sorted(glob.glob(os.path.join(prefix, "lib*", SONAME)) + glob.glob(os.path.join(prefix, "lib", "*", SONAME)))
+    installed = [path for folder in ("lib*", os.path.join("lib", "*"))
+                 for path in sorted(glob.glob(os.path.join(prefix, folder, SONAME)))]
     for path in [os.path.join(here, SONAME), os.path.join(here, "..", SONAME), *installed]:
         if os.path.isfile(path):
             return os.path.realpath(path)

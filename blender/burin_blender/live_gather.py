@@ -3,6 +3,12 @@
 from .gather import Gatherer
 
 
+def visibility_of(space):
+    """What a viewport says about which objects it shows. Blender redraws when it changes, and tells nothing else."""
+    types = tuple(getattr(space, name) for name in dir(space) if name.startswith("show_object_viewport_"))
+    return types, space.local_view is not None, space.use_local_collections
+
+
 class KeptMeshes:
     """Meshes that were read, by the address of Blender's data, each with the names of all objects that showed it."""
 

@@ -9,7 +9,7 @@ import time
 from . import core, line_sets, properties
 from .export import Session
 from .full_picture import FullPicture
-from .live_gather import KeptMeshes, LiveGatherer
+from .live_gather import KeptMeshes, LiveGatherer, visibility_of
 from .look import Look
 from .view_fields import fields_of
 from .view_pixels import PixelMemory, ShownPicture
@@ -30,6 +30,7 @@ class LiveView:
         self.version = 0  # counts changes of scene and look
         self.wanted_look = None  # (lines, sheet) that was tried last, or why there is none
         self.look_error, self.error = "", ""
+        self.visibility = None  # as it was when objects were gathered
         self.owner = ("", "")  # names of scene and view layer
         self.look_at = 0  # when the look is to be compared again
         self.key, self.shown, self.memory = None, None, PixelMemory()
@@ -54,6 +55,7 @@ class LiveView:
         self.kept.forget_changed(depsgraph)
         self.gathered = LiveGatherer(depsgraph, context.space_data, self.kept).gather()
         self.session.apply(self.gathered)
+        self.visibility = visibility_of(context.space_data)
         self.owner = (depsgraph.scene.name, depsgraph.view_layer.name)
         self.update_look(depsgraph.scene, depsgraph.view_layer)
 
@@ -78,6 +80,8 @@ class LiveView:
     def picture(self, context, depsgraph):
         """What is to be shown now: a ShownPicture, or None where there is nothing to draw. Throws BurinError."""
         scene = depsgraph.scene
+        if visibility_of(context.space_data) != self.visibility:
+            self.update(context, depsgraph)
         if time.monotonic() >= self.look_at:
             self.update_look(scene, depsgraph.view_layer)
         if self.look_error:

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-# Shader nodes with one colour, and the name of its socket; `alpha` as well where there is one.
+# Shader nodes with one colour, and the name of its socket.
 COLOR_SOCKETS = {
     "BSDF_PRINCIPLED": "Base Color", "BSDF_DIFFUSE": "Color", "BSDF_GLOSSY": "Color", "BSDF_TOON": "Color",
     "BSDF_VELVET": "Color", "BSDF_SHEEN": "Color", "BSDF_GLASS": "Color", "BSDF_TRANSLUCENT": "Color",
@@ -47,9 +47,11 @@ def look_of(material, notes):
         name = COLOR_SOCKETS.get(node.type) if node is not None else None
         found = constant(node, name) if name else None
         if found is None:
-            what = "has no surface" if node is None else f"is made by {'the node' if name is None else 'nodes before'} " \
-                f"{node.bl_label or node.type}"
-            notes.add(f"material {material.name}: its colour {what}; Burin takes that of its viewport display")
+            if node is None:
+                why = "it has no surface"
+            else:
+                why = f"its colour comes from {'the node' if name is None else 'nodes before'} {node.bl_label}"
+            notes.add(f"material {material.name}: {why}; Burin takes the colour of its viewport display")
         else:
             color = found[:3]
             opacity = 1.0

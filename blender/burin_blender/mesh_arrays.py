@@ -6,7 +6,7 @@ import zlib
 import bpy
 import numpy as np
 
-# Before 3.6, corners and polygons lie in structs, which foreach_get() reads at 60 ns each: (bytes, place of the number).
+# Before 3.6, corners and polygons lie in structs, which foreach_get() reads at 60 ns each: bytes, place of the number.
 HAS_STRUCTS = bpy.app.version < (3, 6, 0)
 CORNER_STRUCT = (8, 0)
 POLYGON_STRUCT = (12, 4)

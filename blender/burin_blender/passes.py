@@ -4,9 +4,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .cryptomatte import RANKS
-
-
 
 class Pass(NamedTuple):
     """A pass as Blender registers it, and the library's layers that it is made of."""
@@ -57,9 +54,6 @@ def missing_passes(view_layer):
     notes = set()
     if view_layer.use_pass_cryptomatte_asset:
         notes.add("the pass CryptoAsset is not drawn")
-    has_crypto = view_layer.use_pass_cryptomatte_object or view_layer.use_pass_cryptomatte_material
-    if has_crypto and view_layer.pass_cryptomatte_depth > RANKS:
-        notes.add(f"passes of Cryptomatte have {RANKS} levels at most")
     names = {"mist": "Mist", "position": "Position", "vector": "Vector", "uv": "UV", "shadow": "Shadow",
              "ambient_occlusion": "Ambient Occlusion", "emit": "Emission", "environment": "Environment",
              "diffuse_color": "Diffuse Color", "glossy_color": "Glossy Color"}

@@ -35,7 +35,7 @@ def to_float(values, out):
 
 
 def put_on_paper(block, paper, left):
-    """Puts paper behind premultiplied pixels, but not into holes: `left` is the part of a pixel beside them, or None."""
+    """Puts paper behind premultiplied pixels, but not into holes: `left` is the part of a pixel beside them."""
     red, green, blue, alpha = block
     free = 1 - alpha
     if left is not None:

@@ -46,7 +46,7 @@ class BurinSceneSettings(bpy.types.PropertyGroup):
 
     use_line_sets: BoolProperty(
         name="Draw Freestyle Line Sets", default=False,
-        description="Draw what the line sets of the view layers say, with their line styles; Freestyle itself stays off")
+        description="Draw the line sets of the view layers, with their line styles; Freestyle itself stays off")
     sheet: PointerProperty(type=sheets.BurinSheetSettings)
 
     line_types: EnumProperty(

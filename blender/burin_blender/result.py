@@ -16,7 +16,7 @@ def not_held_out(job, channels):
     if not job.gathered.holdouts:
         return None
     alpha = channels["A"].astype(np.float32)
-    held = cryptomatte.share_of(job.gathered.holdouts, channels.get)
+    held = cryptomatte.share_of(job.gathered.holdouts, job.crypto_ranks, channels.get)
     return np.clip(1 - np.divide(held, alpha, out=np.zeros_like(held), where=alpha > 0), 0, 1)
 
 

@@ -1,4 +1,4 @@
-"""Style sheets that a user chooses: those that come with the program, text datablocks and files; and their parameters."""
+"""Style sheets that a user chooses, and their parameters: those that come with the program, texts and files."""
 
 import functools
 import json

@@ -53,6 +53,12 @@ MemoryForecast forecast_memory(const PictureLoad& load) {
         if (load.format == OutputFormat::png || load.format == OutputFormat::tiff)
             forecast.film += kBytesPerDisplayPixel * pixels;
     }
+    // Samples of deep files, and of rows that wait to be compressed.
+    constexpr std::uint64_t kBytesPerSample = 48, kRowsOfBands = 128;
+    if (load.layers.deep) {
+        const auto columns = static_cast<std::uint64_t>(load.area.width());
+        forecast.film += kBytesPerSample * (load.is_in_bands ? std::min(kRowsOfBands * columns, pixels) : pixels);
+    }
     // Shares of owners are kept beside the film; a sum has a number in single precision for each of half precision.
     constexpr std::uint64_t kBytesOfOwners = 16;
     if (load.layers.crypto.has_any() || load.layers.line) forecast.film += kBytesOfOwners * pixels;

@@ -24,9 +24,9 @@ cd @folder@ || exit 1
 band=$((SLURM_ARRAY_TASK_ID % @bands@))
 case $((SLURM_ARRAY_TASK_ID / @bands@)) in
 @frames_of_chunks@esac
-@output_of_band@
+@outputs_of_band@
 echo "task $SLURM_ARRAY_TASK_ID: frames $frames, start $((${SLURM_RESTART_COUNT:-0} + 1))"
-@program@ render@arguments@ "$@@" -f "$frames" -o "$output" \
+@program@ render@arguments@ "$@@" -f "$frames" \
     --skip-existing --progress alf -j "${SLURM_CPUS_PER_TASK:-@threads@}" \
     --stats @logs_quoted@/"${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID.jsonl" &
 child=$!
@@ -50,7 +50,7 @@ constexpr std::string_view kCollectScript = R"sh(#!/bin/sh
 #SBATCH --job-name=@job@-collect
 #SBATCH --output="@logs@/collect_%j.txt"
 cd @folder@ || exit 1
-@joins@@removal@found=$(@program@ render@arguments@ -f @frames@ -o @output@ -q --skip-existing --dry-run) || exit 1
+@joins@@removal@found=$(@program@ render@arguments@ -f @frames@@outputs@ -q --skip-existing --dry-run) || exit 1
 missing=$(printf '%s\n' "$found" | sed -n 's/^missing //p')
 if [ -n "$missing" ]; then
     echo "missing: $missing"
@@ -102,13 +102,19 @@ std::string shell_words(const std::vector<std::string>& words) {
     return text;
 }
 
-/// What sets the output of a task, and its crop as the script's arguments.
-std::string output_of_band(const FarmJob& job) {
-    if (job.bands.empty()) return "output=" + shell_quoted(job.output);
+std::string words_of(const std::vector<FarmOutput>& outputs) {
+    std::string text;
+    for (const FarmOutput& output : outputs) text += shell_words({output.option, output.pattern});
+    return text;
+}
+
+/// What makes the outputs of a task, and its crop, the script's arguments.
+std::string outputs_of_band(const FarmJob& job) {
+    if (job.bands.empty()) return "set --" + words_of(job.outputs);
     std::string text = "case $band in\n";
     for (std::size_t b = 0; b < job.bands.size(); ++b) {
-        text += std::to_string(b) + ") output=" + shell_quoted(job.bands[b].output) + "; set -- --crop " +
-                shell_quoted(job.bands[b].crop) + " ;;\n";
+        text += std::to_string(b) + ") set -- --crop " + shell_quoted(job.bands[b].crop) +
+                words_of(job.bands[b].outputs) + " ;;\n";
     }
     return text + "esac";
 }
@@ -116,8 +122,7 @@ std::string output_of_band(const FarmJob& job) {
 std::string joins(const FarmJob& job) {
     if (job.bands.empty()) return {};
     std::string text = filled(kJoin, {{"program", shell_quoted(job.program)}});
-    for (const FarmFrame& frame : job.files)
-        text += "join " + shell_quoted(frame.output) + shell_words(frame.bands) + '\n';
+    for (const FarmFile& file : job.files) text += "join " + shell_quoted(file.output) + shell_words(file.bands) + '\n';
     return text;
 }
 
@@ -153,7 +158,7 @@ SlurmScripts slurm_scripts(const FarmJob& job) {
                                             {"folder", shell_quoted(job.folder)},
                                             {"bands", std::to_string(bands)},
                                             {"frames_of_chunks", frames_of_chunks},
-                                            {"output_of_band", output_of_band(job)},
+                                            {"outputs_of_band", outputs_of_band(job)},
                                             {"program", shell_quoted(job.program)},
                                             {"arguments", shell_words(job.arguments)},
                                             {"retries", std::to_string(job.retries)}});
@@ -165,7 +170,7 @@ SlurmScripts slurm_scripts(const FarmJob& job) {
                                               {"program", shell_quoted(job.program)},
                                               {"arguments", shell_words(job.arguments)},
                                               {"frames", shell_quoted(job.frames)},
-                                              {"output", shell_quoted(job.output)},
+                                              {"outputs", words_of(job.outputs)},
                                               {"resubmit", shell_quoted(job.resubmit)}});
     return scripts;
 }

@@ -6,16 +6,21 @@
 
 namespace burin {
 
-/// A frame of a job, by the names of its files.
-struct FarmFrame {
+/// A file of a frame that is joined from its bands.
+struct FarmFile {
     std::string output;
-    std::vector<std::string> bands;  ///< from the top; empty: the frame is rendered whole
+    std::vector<std::string> bands;  ///< from the top
+};
+
+/// An option that asks for a file, and the pattern of its names.
+struct FarmOutput {
+    std::string option, pattern;
 };
 
 /// Rows that one task renders of each of its frames.
 struct FarmBand {
-    std::string crop;    ///< X0,Y0,X1,Y1, as --crop has it
-    std::string output;  ///< pattern of names, as -o has it
+    std::string crop;  ///< X0,Y0,X1,Y1, as --crop has it
+    std::vector<FarmOutput> outputs;
 };
 
 /// What `burin submit` gives to a farm: frames, in chunks. A task renders a chunk, or one band of its frames.
@@ -24,13 +29,13 @@ struct FarmJob {
     std::string program;                 ///< path of burin
     std::string folder;                  ///< where the tasks run: paths are relative to it
     std::string log_folder;              ///< for what tasks say
-    std::vector<std::string> arguments;  ///< of `render`, but for frames, output, threads, statistics and crop
+    std::vector<std::string> arguments;  ///< of `render`, but for frames, outputs, threads, statistics and crop
     std::string resubmit;                ///< command line of `submit`, but for its frames
-    std::string output;                  ///< pattern of names, as -o has it
+    std::vector<FarmOutput> outputs;
     std::string frames;                  ///< all frames, as -f has them
     std::vector<std::string> chunks;     ///< those that are rendered, chunk by chunk, as -f has them; at least one
     std::vector<FarmBand> bands;         ///< from the top; empty: frames are rendered whole
-    std::vector<FarmFrame> files;        ///< of the frames that are rendered, if there are bands
+    std::vector<FarmFile> files;         ///< of the frames that are rendered, if there are bands
     std::vector<std::string> leftovers;  ///< how names of files begin that dead tasks may leave
     int retries = 1;                     ///< how often a task that failed is tried again
     int threads = 1;                     ///< of a task

@@ -19,7 +19,7 @@ std::string megabytes(std::uint64_t bytes) {
 
 PictureLoad load_of(RenderJob& job, const Arguments& a) {
     PictureLoad load;
-    load.layers = job.renderer().layers_of_first_frame(job.output(), load.is_in_bands);
+    load.layers = job.renderer().layers_of_first_frame(load.is_in_bands);
     const Scene& scene = job.renderer().scene();
     for (const Mesh& mesh : scene.meshes) load.triangles += mesh.triangles.size();
     load.area = crop_of(a, scene.picture.width, scene.picture.height);
@@ -27,7 +27,10 @@ PictureLoad load_of(RenderJob& job, const Arguments& a) {
     load.is_blurred = job.renderer().is_blurred();
     if (load.is_blurred) load.is_in_bands = false;
     load.keeps_all_lines = scene.sheet || draws_hidden_lines(scene);
-    load.format = job.output().format;
+    load.format = job.outputs().front().format;
+    for (const OutputOptions& output : job.outputs()) {  // what needs most
+        if (output.format == OutputFormat::png || output.format == OutputFormat::tiff) load.format = output.format;
+    }
     load.threads = resolve_thread_count(a.threads);
     load.cap_bytes = a.memory_bytes;
     load.frames_at_once = job.plan().frames.size() > 1 && load.threads > 1 ? 2 : 1;

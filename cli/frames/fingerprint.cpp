@@ -36,8 +36,8 @@ Fingerprints::Fingerprints(const Arguments& a, const LoadedInput& input) : argum
     for (const std::string& file : files) add_content(file, of_all_);
 }
 
-std::string Fingerprints::of(const SceneChange& places, const std::vector<Camera>& cameras,
-                             const std::vector<std::string>& files, OutputFormat format) const {
+FrameFingerprint Fingerprints::of(const SceneChange& places, const std::vector<Camera>& cameras,
+                                  const std::vector<std::string>& files) const {
     ContentHash hash = of_all_;
     hash.add(places.frame);
     for (const glm::dmat4& to_world : places.to_world) add(to_world, hash);
@@ -49,11 +49,11 @@ std::string Fingerprints::of(const SceneChange& places, const std::vector<Camera
         if (camera.lens_radius > 0) hash.add(camera.lens_radius).add(camera.focus);
     }
     for (const std::string& file : files) add_content(file, hash);
-    // An EXR says which part of the picture it has.
-    if (format != OutputFormat::exr && arguments_.crop) {
+    const std::string of_exr = hash.text();
+    if (arguments_.crop) {
         for (const int side : *arguments_.crop) hash.add(static_cast<std::uint64_t>(side));
     }
-    return hash.text();
+    return {of_exr, hash.text()};
 }
 
 }  // namespace burin

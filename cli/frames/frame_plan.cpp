@@ -24,8 +24,8 @@ FrameFile frame_file(const std::string& option, const std::string& path, FramePa
 }
 
 [[noreturn]] void fail_without_pattern(const FrameFile& file) {
-    const bool is_picture = file.option == "-o";
-    throw UsageError(file.option + ": several frames need a pattern, as out.####." + (is_picture ? "exr" : "lines"));
+    const bool has_lines = file.option == "--save-lines";
+    throw UsageError(file.option + ": several frames need a pattern, as out.####." + (has_lines ? "lines" : "exr"));
 }
 
 /// The frames of a turntable, once around.
@@ -36,10 +36,13 @@ std::vector<double> frames_around(double first, int count) {
 }
 
 std::vector<const FrameFile*> files_of(const FramePlan& plan) {
-    std::vector<const FrameFile*> files = {&plan.picture};
+    std::vector<const FrameFile*> files;
+    for (const FrameFile& file : plan.outputs) files.push_back(&file);
     if (plan.lines) files.push_back(&*plan.lines);
     return files;
 }
+
+const char* option_of(const OutputOptions& output) { return output.is_deep ? "--deep" : "-o"; }
 
 /// With a slash at its end; empty: where the program runs. A pattern stands behind it.
 std::string folder_of(const FrameFile& file) { return file.path.substr(0, file.path.rfind('/') + 1); }
@@ -55,32 +58,38 @@ std::unordered_set<std::string> names_in(const std::string& folder) {
 
 }  // namespace
 
-void check_names_of_frames(const Arguments& a, const std::string& picture) {
+void check_names_of_frames(const Arguments& a, const std::vector<OutputOptions>& outputs) {
     if (a.stats != "-" && FramePattern::find(a.stats, FramePattern::SingleHash::letter))
         throw UsageError("--stats: is one file for all frames; give a name without a pattern");
     if (!asks_for_frames(a)) return;
     const std::size_t count =
         a.frame_list.empty() ? static_cast<std::size_t>(*a.turntable_frames) : a.frame_list.size();
-    for (const auto& [option, path] : {std::pair("-o", picture), std::pair("--save-lines", a.save_lines)}) {
+    const auto check = [&](const char* option, const std::string& path) {
         const FrameFile file = frame_file(option, path, FramePattern::SingleHash::digits);
         if (count > 1 && !file.pattern && !path.empty()) fail_without_pattern(file);
-    }
+    };
+    for (const OutputOptions& output : outputs) check(option_of(output), output.path);
+    check("--save-lines", a.save_lines);
 }
 
-FramePlan plan_frames(const Arguments& a, const SceneDescription& scene, const std::string& picture) {
+FramePlan plan_frames(const Arguments& a, const SceneDescription& scene, const std::vector<OutputOptions>& outputs) {
     const bool scene_has_frames = !scene.frame_range.empty() || scene.turntable;
     // A name that is made from the input's has no pattern unless frames are asked for.
-    const bool takes_single = asks_for_frames(a) || (scene_has_frames && !a.output.empty() && !a.frame);
+    const bool names_output = !a.output.empty() || !a.deep.empty();
+    const bool takes_single = asks_for_frames(a) || (scene_has_frames && names_output && !a.frame);
     const auto single = takes_single ? FramePattern::SingleHash::digits : FramePattern::SingleHash::letter;
     FramePlan plan;
-    plan.picture = frame_file("-o", picture, single);
+    for (const OutputOptions& output : outputs)
+        plan.outputs.push_back(frame_file(option_of(output), output.path, single));
     if (!a.save_lines.empty()) plan.lines = frame_file("--save-lines", a.save_lines, single);
-    const bool has_pattern = plan.picture.pattern || (plan.lines && plan.lines->pattern);
+    const std::vector<const FrameFile*> files = files_of(plan);
+    const auto with_pattern =
+        std::find_if(files.begin(), files.end(), [](const FrameFile* file) { return file->pattern.has_value(); });
+    const bool has_pattern = with_pattern != files.end();
     plan.is_sequence = asks_for_frames(a) || (has_pattern && scene_has_frames && !a.frame);
     if (!plan.is_sequence) {
         if (has_pattern) {
-            const FrameFile& file = plan.picture.pattern ? plan.picture : *plan.lines;
-            throw UsageError(file.option +
+            throw UsageError((*with_pattern)->option +
                              ": a pattern for frames needs --frames, or a range in [frames] of the scene");
         }
         plan.is_at_rest = !a.frame && scene.frame_range.empty();
@@ -92,8 +101,9 @@ FramePlan plan_frames(const Arguments& a, const SceneDescription& scene, const s
     } else {
         plan.frames = scene.frame_range;
     }
-    if (plan.frames.size() > 1 && !plan.picture.pattern) fail_without_pattern(plan.picture);
-    if (plan.frames.size() > 1 && plan.lines && !plan.lines->pattern) fail_without_pattern(*plan.lines);
+    for (const FrameFile* file : files) {
+        if (plan.frames.size() > 1 && !file->pattern) fail_without_pattern(*file);
+    }
     return plan;
 }
 
@@ -113,6 +123,18 @@ std::vector<OutputFile> existing_outputs(const FramePlan& plan) {
         }
     }
     return outputs;
+}
+
+void check_files_of(const FramePlan& plan, double frame) {
+    for (const FrameFile* file : files_of(plan)) check_output_file(file->path_of(frame));
+}
+
+std::vector<OutputFile> all_outputs(const FramePlan& plan, std::vector<OutputFile> others) {
+    for (const FrameFile* file : files_of(plan)) {
+        const std::string option = file->option == "-o" ? "--output" : file->option;
+        for (const double frame : plan.frames) others.push_back({option, file->path_of(frame)});
+    }
+    return others;
 }
 
 void sweep_outputs(const FramePlan& plan) {

@@ -65,6 +65,25 @@ void draw_by_sheet(Scene& scene) {
     scene.names_lines = true;
 }
 
+/// Has a scene drawn by a sheet, and then as before.
+class SheetForPaths {
+  public:
+    explicit SheetForPaths(Scene& scene) : scene_(scene), sheet_(scene.sheet), names_lines_(scene.names_lines) {
+        draw_by_sheet(scene);
+    }
+    ~SheetForPaths() {
+        scene_.sheet = sheet_;
+        scene_.names_lines = names_lines_;
+    }
+    SheetForPaths(const SheetForPaths&) = delete;
+    SheetForPaths& operator=(const SheetForPaths&) = delete;
+
+  private:
+    Scene& scene_;
+    std::shared_ptr<const StyleSheet> sheet_;
+    bool names_lines_;
+};
+
 /// Refuses layers that only the A-buffer has, of one view.
 void refuse_layers(const LayerSet& layers, const Method& method, std::size_t view_count) {
     if (!layers.crypto.has_any() && !layers.line && !layers.motion) return;
@@ -111,25 +130,31 @@ std::string without_numbers(std::string text) {
 
 void DrawnFrame::write(const Arguments& a) {
     Stopwatch watch;
-    WrittenFilm written;
-    if (bands) {
-        written = bands->finish();
-    } else if (is_vector(output.format)) {
-        write_vector(drawing, a, output);
-    } else {
-        written = write_output(frame, *film, *channels, output);
+    std::optional<WrittenFilm> written;  // the first EXR counts
+    std::size_t band_file = 0;
+    for (const OutputOptions& output : outputs) {
+        if (output.is_deep) {
+            if (!is_deep_written) deep->write_all(output.threads);
+            deep->finish();
+        } else if (is_vector(output.format)) {
+            write_vector(drawing, a, output);
+        } else {
+            const WrittenFilm now =
+                band_file < bands.size() ? bands[band_file++]->finish() : write_output(frame, *film, *channels, output);
+            if (!written && output.format == OutputFormat::exr) written = now;
+        }
     }
-    if (film && film->layers().crypto.has_any()) times.crypto_dropped = written.crypto_dropped;
+    if (film && film->layers().crypto.has_any() && written) times.crypto_dropped = written->crypto_dropped;
     times.write_s = times.render.write_s + watch.lap();
     times.total_s = times.load_s + drawing_seconds(times.render) + times.write_s;
 }
 
 FrameRenderer::FrameRenderer(const Arguments& a, const Method& method, LoadedInput input, const FramePlan& plan,
-                             const OutputOptions& output)
+                             const std::vector<OutputOptions>& outputs)
     : arguments_(a),
       method_(method),
       plan_(plan),
-      format_(output.format),
+      outputs_(outputs),
       animation_(std::move(input.animation)),
       fingerprints_(plan.is_sequence || a.skips_existing ? std::optional<Fingerprints>(std::in_place, a, input)
                                                          : std::nullopt),
@@ -138,7 +163,7 @@ FrameRenderer::FrameRenderer(const Arguments& a, const Method& method, LoadedInp
     const Stopwatch watch;
     Scene& scene = posed_.scene();
     scene.frame.is_of_sequence = plan.is_sequence;
-    has_hidden_lines_ = settle_look(a, method, is_vector(output.format), scene);
+    has_hidden_lines_ = settle_look(a, method, has_paths() && !has_pixels(), scene);
     first_cameras_ = scene.cameras;
     const PointSource points = points_of_frames(scene, animation_, input.frame_range);
     views_ = views_of(scene, points, a);
@@ -151,12 +176,12 @@ FrameRenderer::FrameRenderer(const Arguments& a, const Method& method, LoadedInp
             fit_depth_ranges(animation_, input.frame_range, *job_camera_, scene);
     }
     const bool moves = !plan.is_at_rest && (animation_.moves() || input.turntable);
-    blur_ = blur_of(scene, camera_, a, moves, is_vector(output.format));
+    blur_ = blur_of(scene, camera_, a, moves, has_paths());
     if (!views_.empty()) blur_ = {};  // it was refused if it is more than one sub-frame
     pose_s_ = watch.seconds();
 }
 
-std::string FrameRenderer::fingerprint_of(double frame) const {
+FrameFingerprint FrameRenderer::fingerprint_of(double frame) const {
     if (!fingerprints_) return {};
     SceneChange places;
     if (!plan_.is_at_rest) places = animation_.places_at(frame);
@@ -182,31 +207,46 @@ std::string FrameRenderer::fingerprint_of(double frame) const {
             }
         }
     }
-    return fingerprints_->of(places, cameras, files, format_);
+    return fingerprints_->of(places, cameras, files);
 }
 
-bool FrameRenderer::is_there(double frame, const std::string& fingerprint, std::string& note) const {
-    const auto is_made = [&](const std::string& path, const std::optional<WholeFile>& file) {
-        if (!file) {
+bool FrameRenderer::is_there(double frame, const FrameFingerprint& fingerprint, std::string& note) const {
+    const auto is_made = [&](const std::string& path, const std::optional<WholeFile>& file,
+                             const OutputOptions& output) {
+        if (!file || file->is_deep != output.is_deep) {
             if (std::error_code error; std::filesystem::exists(path, error)) note = path + " is not whole";
             return false;
         }
-        if (file->fingerprint != fingerprint) {
+        if (file->fingerprint != fingerprint.of(output.format)) {
             note = path + (file->fingerprint.empty() ? " has no fingerprint" : " was made from another input");
             return false;
         }
         const PictureSettings& picture = scene().picture;
         const PixelRect whole{0, 0, picture.width, picture.height};
-        const PixelRect wanted = format_ == OutputFormat::exr ? crop_of(arguments_, whole.x1, whole.y1) : whole;
+        const PixelRect wanted = output.format == OutputFormat::exr ? crop_of(arguments_, whole.x1, whole.y1) : whole;
         if (!file->data || *file->data == wanted) return true;
         note = path + " has another part of the picture";
         return false;
     };
-    const std::string path = plan_.picture.path_of(frame);
-    if (!is_made(path, find_whole_file(path, format_))) return false;
+    for (const OutputOptions& output : outputs_of(frame, fingerprint)) {
+        if (!is_made(output.path, find_whole_file(output.path, output.format), output)) return false;
+    }
     if (!plan_.lines) return true;
     const std::string lines = plan_.lines->path_of(frame);
-    return is_made(lines, find_whole_lines_file(lines));
+    OutputOptions first = outputs_.front();
+    first.is_deep = false;
+    return is_made(lines, find_whole_lines_file(lines), first);
+}
+
+std::vector<OutputOptions> FrameRenderer::outputs_of(double frame, const FrameFingerprint& fingerprint) const {
+    std::vector<OutputOptions> outputs = outputs_;
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        outputs[i].has_beauty = !arguments_.names_layers || arguments_.layers.beauty;
+        outputs[i].path = plan_.outputs[i].path_of(frame);
+        outputs[i].fingerprint = fingerprint.of(outputs[i].format);
+        outputs[i].frame = scene().frame;
+    }
+    return outputs;
 }
 
 SceneChange FrameRenderer::change_at(double frame) const {
@@ -226,20 +266,36 @@ void FrameRenderer::pose(SceneChange&& change) {
     pose_s_ += watch.seconds();
 }
 
-LayerSet FrameRenderer::layers_of_picture(const Frame& frame, const OutputOptions& output, bool& in_bands) const {
-    const LayerSet layers = layers_for(scene(), arguments_);
-    refuse_layers(layers, method_, views_.size());
+LayerSet FrameRenderer::layers_of_picture(const Frame& frame, bool& in_bands) const {
+    LayerSet all{false, false, false, false, false, false, false, false};
+    bool are_exr = true;
+    for (const OutputOptions& output : outputs_) {
+        are_exr = are_exr && output.format == OutputFormat::exr;
+        if (output.is_deep) {
+            all.deep = true;
+            all.deep_hidden = scene().deep.has_lines_behind;
+            continue;
+        }
+        const LayerSet layers = layers_for(scene(), arguments_);
+        refuse_layers(layers, method_, views_.size());
+        if (output.format != OutputFormat::exr) {  // paths are made without pixels
+            all.beauty = all.beauty || !is_vector(output.format) || arguments_.saves_surface;
+            continue;
+        }
+        const LayerSet others = std::exchange(all, layers);
+        all.beauty = all.beauty || others.beauty;
+        all.deep = others.deep;
+        all.deep_hidden = others.deep_hidden;
+    }
     // An EXR is compressed while it is drawn; but not when times are taken.
-    in_bands = output.format == OutputFormat::exr && arguments_.repeat == 0 && views_.empty() &&
-               method_.finishes_in_bands != nullptr && method_.finishes_in_bands(frame);
-    if (output.format == OutputFormat::exr) return layers;
-    const bool has_pixels = !is_vector(output.format) || arguments_.saves_surface;  // paths are made without
-    return LayerSet{has_pixels, false, false, false, false, false, false, false};
+    in_bands = are_exr && arguments_.repeat == 0 && views_.empty() && method_.finishes_in_bands != nullptr &&
+               method_.finishes_in_bands(frame);
+    return all;
 }
 
-LayerSet FrameRenderer::layers_of_first_frame(const OutputOptions& output, bool& in_bands) {
+LayerSet FrameRenderer::layers_of_first_frame(bool& in_bands) {
     pose(change_at(plan_.frames.front()));
-    return layers_of_picture(frame_of(scene(), camera_, arguments_, &posed_.prepared()), output, in_bands);
+    return layers_of_picture(frame_of(scene(), camera_, arguments_, &posed_.prepared()), in_bands);
 }
 
 Moment FrameRenderer::moment_at(double number, double time, MomentUse use) {
@@ -255,11 +311,40 @@ Moment FrameRenderer::moment_at(double number, double time, MomentUse use) {
     return {&scene(), camera_, &posed_.prepared()};
 }
 
-DrawnFrame FrameRenderer::draw(const OutputOptions& output, Progress* progress) {
+/// Begins what is written while it is drawn.
+void FrameRenderer::begin_files(RunOptions& run, bool in_bands, DrawnFrame& drawn,
+                                std::atomic<bool>& has_write_failed) {
+    bool has_flat = false;
+    for (const OutputOptions& output : drawn.outputs) {
+        if (output.is_deep) {
+            drawn.deep = std::make_unique<DeepWriter>(drawn.frame, *drawn.film, output);
+        } else {
+            has_flat = has_flat || !is_vector(output.format);
+            if (in_bands) drawn.bands.push_back(std::make_unique<BandWriter>(drawn.frame, *drawn.film, output));
+        }
+    }
+    if (!in_bands) {
+        if (has_flat) drawn.channels = std::make_unique<FilmChannels>(drawn.frame, *drawn.film);
+        return;
+    }
+    drawn.is_deep_written = drawn.deep != nullptr;
+    run.finished_band = [&drawn, &has_write_failed](std::size_t band) {
+        try {
+            if (drawn.deep) drawn.deep->write(band);
+            for (const auto& file : drawn.bands) file->write(band);
+        } catch (...) {
+            has_write_failed = true;
+            throw;
+        }
+        drawn.film->close(band);
+    };
+}
+
+DrawnFrame FrameRenderer::draw(const std::vector<OutputOptions>& outputs, Progress* progress) {
     Stopwatch watch;
     DrawnFrame drawn;
     drawn.number = scene().frame.number;
-    drawn.output = output;
+    drawn.outputs = outputs;
     const MomentAt moments = [this, number = drawn.number](double time, MomentUse use) {
         return moment_at(number, time, use);
     };
@@ -272,30 +357,21 @@ DrawnFrame FrameRenderer::draw(const OutputOptions& output, Progress* progress) 
     drawn.frame = frame_of(scene(), camera_, arguments_, &posed_.prepared());
     drawn.times.load_s = std::exchange(pose_s_, 0) + watch.lap();
     bool in_bands = false;
-    const LayerSet layers = layers_of_picture(drawn.frame, output, in_bands);
-    if (drawn.sub_frames > 1 && (layers.crypto.has_any() || layers.line || layers.motion)) {
-        throw UsageError(
-            "--layers: crypto, line and motion are of sharp pictures in this version; render them by "
-            "themselves, without shutter and lens");
-    }
-    // For line.qi. It changes no picture; a sheet asks for what it needs.
-    if (layers.line && !scene().sheet) drawn.frame.needs.tells_invisibility = drawn.frame.needs.behind();
-    if (layers.motion) find_next(drawn.frame);
+    const LayerSet layers = layers_of_picture(drawn.frame, in_bands);
+    make_ready(drawn.frame, layers, 0);
     const Frame& frame = drawn.frame;
-    if (is_first_) note_limits(arguments_, frame, method_, has_hidden_lines_, output);
+    const OutputOptions& first = outputs.front();
+    if (is_first_) note_limits(arguments_, frame, method_, has_hidden_lines_, outputs);
     in_bands = in_bands && drawn.sub_frames == 1;
-    drawn.film = std::make_unique<Film>(make_film(frame, layers, in_bands, is_vector(output.format), output.path));
+    drawn.film = std::make_unique<Film>(make_film(frame, layers, in_bands, !has_pixels(), first.path));
     RunOptions run{arguments_.threads, progress, arguments_.memory_bytes};
-    if (in_bands) {
-        drawn.bands = std::make_unique<BandWriter>(frame, *drawn.film, output);
-        run.finished_band = [&drawn](std::size_t band) { drawn.bands->write(band); };
-    }
-    if (!in_bands) drawn.channels = std::make_unique<FilmChannels>(frame, *drawn.film);
+    std::atomic<bool> has_write_failed = false;
+    begin_files(run, in_bands, drawn, has_write_failed);
     if (plan_.lines) {
         run.found_lines = [&](const FoundLines& lines, const Film& surfaces) {
             AtomicFile file(plan_.lines->path_of(drawn.number));
             write_lines_file(file, lines, arguments_.saves_surface ? kept_surface(surfaces) : KeptSurface{},
-                             output.fingerprint);
+                             first.fingerprint);
             file.commit();
         };
     }
@@ -304,11 +380,12 @@ DrawnFrame FrameRenderer::draw(const OutputOptions& output, Progress* progress) 
     } catch (const LimitError& error) {
         throw InputError(arguments_.input + ": --memory: " + error.what());
     } catch (const InputError& error) {
-        if (drawn.bands && drawn.bands->has_failed()) throw;
+        if (has_write_failed) throw;
         const std::string message = error.what();  // begins with the file where it has a place
         throw InputError(message.starts_with(arguments_.input + ":") ? message : arguments_.input + ": " + message);
     }
     run.found_lines = nullptr;
+    run.finished_band = nullptr;
     if (arguments_.repeat > 0) {
         run.progress = nullptr;
         std::vector<RenderStats> runs;
@@ -325,10 +402,16 @@ DrawnFrame FrameRenderer::draw(const OutputOptions& output, Progress* progress) 
     return drawn;
 }
 
-/// Finds where the surfaces of a frame are one frame later.
-void FrameRenderer::find_next(Frame& frame) {
+/// Has a frame know what layers ask for; `time`: of it, from the frame's own.
+void FrameRenderer::make_ready(Frame& frame, const LayerSet& layers, double time) {
+    // For line.qi and qi. It changes no picture; a sheet asks for what it needs.
+    if ((layers.line || layers.deep) && !scene().sheet) frame.needs.tells_invisibility = frame.needs.behind();
+    if (layers.motion) find_next(frame, scene().frame.number + time + 1);
+}
+
+/// Finds where the surfaces of a frame are at another one.
+void FrameRenderer::find_next(Frame& frame, double number) {
     if (!animation_.moves() || plan_.is_at_rest) return;
-    const double number = scene().frame.number + 1;
     try {
         next_change_ = animation_.at(number);
     } catch (const InputError& error) {
@@ -348,15 +431,29 @@ void FrameRenderer::find_next(Frame& frame) {
 }
 
 RenderStats FrameRenderer::draw_picture(const Frame& frame, const RunOptions& run, Film& film, DrawnFrame& drawn) {
+    if (!has_pixels()) return draw_as_paths(frame, run, film, drawn);
+    RenderStats stats = draw_pixels(frame, run, film, drawn);
+    if (has_paths()) add(draw_as_paths_too(run, drawn), stats);
+    return stats;
+}
+
+RenderStats FrameRenderer::draw_pixels(const Frame& frame, const RunOptions& run, Film& film, DrawnFrame& drawn) {
     if (drawn.sub_frames > 1) {
         const MomentAt moments = [this, number = drawn.number](double time, MomentUse use) {
             return moment_at(number, time, use);
         };
-        return render_blurred(method_, blur_, drawn.sub_frames, moments, frame.width, frame.height, run, film);
+        const ReadyFrame ready = [&](Frame& sub_frame, bool is_middle) {
+            LayerSet layers = film.layers();
+            layers.motion = layers.motion && is_middle;
+            make_ready(sub_frame, layers, blur_.shutter ? middle_sub_frame(&*blur_.shutter).time : 0);
+        };
+        return render_blurred(method_, blur_, drawn.sub_frames, moments, frame.width, frame.height, run, film, ready);
     }
-    const SheetViews sheet{posed_.scene(), arguments_, views_, &posed_.prepared()};
-    if (!is_vector(drawn.output.format))
-        return views_.empty() ? method_.render(frame, run, film) : sheet.draw(method_, run, film);
+    if (views_.empty()) return method_.render(frame, run, film);
+    return SheetViews{posed_.scene(), arguments_, views_, &posed_.prepared()}.draw(method_, run, film);
+}
+
+RenderStats FrameRenderer::draw_as_paths(const Frame& frame, const RunOptions& run, Film& film, DrawnFrame& drawn) {
     RenderStats stats;
     if (VectorStats& paths = drawn.times.paths.emplace(); views_.empty()) {
         const FoundLines lines = find_styled_lines(frame, run, film, stats);
@@ -366,10 +463,22 @@ RenderStats FrameRenderer::draw_picture(const Frame& frame, const RunOptions& ru
                          stats.notes);
         }
     } else {
+        const SheetViews sheet{posed_.scene(), arguments_, views_, &posed_.prepared()};
         stats = sheet.draw_as_paths(run, film, drawn.drawing, paths);
     }
     finish_drawing(scene().picture, arguments_, drawn.drawing, *drawn.times.paths, stats.notes);
     return stats;
+}
+
+/// Beside pixels, whose bytes must be those that they have without paths: lines are found once more.
+RenderStats FrameRenderer::draw_as_paths_too(const RunOptions& run, DrawnFrame& drawn) {
+    const SheetForPaths sheet(posed_.scene());
+    const Frame frame = frame_of(scene(), camera_, arguments_, &posed_.prepared());
+    Film film = make_film(frame, {false, false, false, false, false, false, false, false}, false, true, {});
+    RunOptions own = run;
+    own.found_lines = nullptr;
+    own.finished_band = nullptr;
+    return draw_as_paths(frame, own, film, drawn);
 }
 
 /// Says what the user should know of a frame. Of a sequence, what other frames have, too, is said once.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +13,7 @@
 #include "cli/frames/frame_plan.h"
 #include "cli/frames/posed_scene.h"
 #include "cli/render_stats.h"
+#include "output/deep_file.h"
 #include "output/film_files.h"
 #include "output/paths/vector_drawing.h"
 
@@ -19,43 +22,48 @@ namespace burin {
 /// A picture that is drawn and not yet written. Writing it reads nothing of the scene that changes with the next frame.
 struct DrawnFrame {
     double number = 0;
-    OutputOptions output;
+    std::vector<OutputOptions> outputs;
     Frame frame;
     std::unique_ptr<Film> film;
     std::unique_ptr<FilmChannels> channels;  ///< of the film, if it is written when it is drawn
-    std::unique_ptr<BandWriter> bands;       ///< set if an EXR was written while it was drawn, but for its name
-    VectorDrawing drawing;                   ///< of vector files
+    /// Of each EXR, if they are written while it is drawn, but for their names.
+    std::vector<std::unique_ptr<BandWriter>> bands;
+    std::unique_ptr<DeepWriter> deep;  ///< of a deep file
+    bool is_deep_written = false;      ///< that was written while it was drawn, but for its name
+    VectorDrawing drawing;             ///< of vector files
     StageTimes times;
     int sub_frames = 1;                  ///< whose mean it is
     std::vector<double> skipped_behind;  ///< frames that come next and are there already
 
-    /// Writes the file, which appears under its name when it is complete. Throws InputError.
+    /// Writes the files, which appear under their names when they are complete. Throws InputError.
     void write(const Arguments& arguments);
 };
 
 /// Draws the frames of a job, one after the other.
 class FrameRenderer {
   public:
-    /// `output`: of the first frame. Throws InputError and UsageError.
+    /// `outputs`: of the first frame. Throws InputError and UsageError.
     FrameRenderer(const Arguments& arguments, const Method& method, LoadedInput input, const FramePlan& plan,
-                  const OutputOptions& output);
+                  const std::vector<OutputOptions>& outputs);
 
-    /// The fingerprint of a frame; empty if files are to have none. Throws InputError and UsageError.
-    std::string fingerprint_of(double frame) const;
+    /// The fingerprint of a frame. Throws InputError and UsageError.
+    FrameFingerprint fingerprint_of(double frame) const;
     /// Whether all files of a frame are there, whole, and of this fingerprint. `note`: gets what a user should know of
     /// those that are not.
-    bool is_there(double frame, const std::string& fingerprint, std::string& note) const;
+    bool is_there(double frame, const FrameFingerprint& fingerprint, std::string& note) const;
 
     /// What a frame changes. Any thread may call it while another frame is drawn. Throws InputError.
     SceneChange change_at(double frame) const;
     /// Puts the scene into a frame, and makes the camera ready. Throws InputError and UsageError.
     void pose(SceneChange&& change);
-    /// Draws what it was put into. `output` has the name of its file. Throws InputError, UsageError and Interrupted.
-    DrawnFrame draw(const OutputOptions& output, Progress* progress);
+    /// The files of a frame.
+    std::vector<OutputOptions> outputs_of(double frame, const FrameFingerprint& fingerprint) const;
+    /// Draws what it was put into, for these files. Throws InputError, UsageError and Interrupted.
+    DrawnFrame draw(const std::vector<OutputOptions>& outputs, Progress* progress);
 
     /// The layers of the first frame, which is posed for that. `in_bands`: gets whether an EXR of it is written while
     /// it is drawn. Throws InputError and UsageError.
-    LayerSet layers_of_first_frame(const OutputOptions& output, bool& in_bands);
+    LayerSet layers_of_first_frame(bool& in_bands);
 
     /// Whether frames may be means of several sub-frames.
     bool is_blurred() const { return blur_.is_asked_for() && blur_.samples != 1; }
@@ -65,9 +73,20 @@ class FrameRenderer {
     const Camera& camera() const { return camera_; }
 
   private:
-    LayerSet layers_of_picture(const Frame& frame, const OutputOptions& output, bool& in_bands) const;
+    bool has_paths() const {
+        return std::any_of(outputs_.begin(), outputs_.end(), [](const auto& o) { return is_vector(o.format); });
+    }
+    bool has_pixels() const {
+        return std::any_of(outputs_.begin(), outputs_.end(), [](const auto& o) { return !is_vector(o.format); });
+    }
+    LayerSet layers_of_picture(const Frame& frame, bool& in_bands) const;
+    void begin_files(RunOptions& run, bool in_bands, DrawnFrame& drawn, std::atomic<bool>& has_write_failed);
     RenderStats draw_picture(const Frame& frame, const RunOptions& run, Film& film, DrawnFrame& drawn);
-    void find_next(Frame& frame);
+    RenderStats draw_pixels(const Frame& frame, const RunOptions& run, Film& film, DrawnFrame& drawn);
+    RenderStats draw_as_paths(const Frame& frame, const RunOptions& run, Film& film, DrawnFrame& drawn);
+    RenderStats draw_as_paths_too(const RunOptions& run, DrawnFrame& drawn);
+    void make_ready(Frame& frame, const LayerSet& layers, double time);
+    void find_next(Frame& frame, double number);
     /// The scene at a time within the frame in work.
     Moment moment_at(double number, double time, MomentUse use);
     void note(const std::string& text);
@@ -75,7 +94,7 @@ class FrameRenderer {
     const Arguments& arguments_;
     const Method& method_;
     const FramePlan& plan_;
-    OutputFormat format_;
+    std::vector<OutputOptions> outputs_;  // of the first frame
     SceneAnimation animation_;
     std::optional<Fingerprints> fingerprints_;
     bool has_hidden_lines_ = false;

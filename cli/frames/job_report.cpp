@@ -1,5 +1,6 @@
 #include "cli/frames/job_report.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <numeric>
@@ -63,7 +64,7 @@ void JobReport::done(const DrawnFrame& frame) {
     last_done_ = frame.number;
     add(frame.times, sum_);
     if (arguments_.alf_progress) {
-        std::printf("Saved: '%s'\n", frame.output.path.c_str());
+        for (const OutputOptions& output : frame.outputs) std::printf("Saved: '%s'\n", output.path.c_str());
         std::fflush(stdout);
     }
     last_seconds_.push_back(since_last_.lap());
@@ -76,7 +77,7 @@ void JobReport::done(const DrawnFrame& frame) {
     if (arguments_.verbose) {
         progress_.hide();
         std::fprintf(stderr, "%s: %dx%d, %llu triangles (ready %.2f, draw %.2f, write %.2f)\n",
-                     frame.output.path.c_str(), frame.frame.crop.width(), frame.frame.crop.height(),
+                     frame.outputs.front().path.c_str(), frame.frame.crop.width(), frame.frame.crop.height(),
                      static_cast<unsigned long long>(frame.times.render.triangles), frame.times.load_s,
                      drawing_seconds(frame.times.render), frame.times.write_s);
     }
@@ -116,7 +117,7 @@ void JobReport::tell(double frame, Status status, const StageTimes* times, const
     ++counts_[status];
     if (stats_ == nullptr) return;
     JsonWriter json(JsonWriter::Layout::one_line);
-    json.begin_object().key("frame").value(frame).key("output").value(plan_.picture.path_of(frame));
+    json.begin_object().key("frame").value(frame).key("output").value(plan_.outputs.front().path_of(frame));
     json.key("status").value(kWords[status]);
     add_stages(json, times != nullptr ? *times : StageTimes());
     if (times != nullptr && times->crypto_dropped) json.key("crypto_dropped").value(*times->crypto_dropped);
@@ -128,7 +129,17 @@ void JobReport::tell(double frame, Status status, const StageTimes* times, const
         json.null();
     }
     json.end_object();
-    write(json.text());
+    write_in_turn(frame, json.text());
+}
+
+void JobReport::write_in_turn(double frame, std::string line) {
+    const auto at =
+        std::find(plan_.frames.begin() + static_cast<std::ptrdiff_t>(next_line_), plan_.frames.end(), frame);
+    waiting_.emplace(static_cast<std::size_t>(at - plan_.frames.begin()), std::move(line));
+    for (; !waiting_.empty() && waiting_.begin()->first == next_line_; ++next_line_) {
+        write(waiting_.begin()->second);
+        waiting_.erase(waiting_.begin());
+    }
 }
 
 void JobReport::write(const std::string& line) {
@@ -140,6 +151,8 @@ void JobReport::finish() {
     const std::lock_guard lock(mutex_);
     if (std::exchange(is_finished_, true)) return;
     if (stats_ == nullptr) return;
+    for (const auto& [place, line] : waiting_) write(line);  // frames between were not begun
+    waiting_.clear();
     JsonWriter json(JsonWriter::Layout::one_line);
     json.begin_object().key("summary").value(true).key("frames").value(std::uint64_t{plan_.frames.size()});
     json.key("done").value(std::uint64_t{counts_[kDone]}).key("skipped").value(std::uint64_t{counts_[kSkipped]});

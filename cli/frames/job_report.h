@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 #include <deque>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -48,6 +49,8 @@ class JobReport {
   private:
     enum Status : std::size_t { kDone, kSkipped, kFailed, kInterrupted, kStatusCount };
     void tell(double frame, Status status, const StageTimes* times, const std::string* error);
+    /// Writes a frame's line once those of the frames before it are written.
+    void write_in_turn(double frame, std::string line);
     void write(const std::string& line);
 
     const Arguments& arguments_;
@@ -64,6 +67,8 @@ class JobReport {
     std::string first_failure_;
     std::optional<double> last_done_;
     bool is_finished_ = false;
+    std::map<std::size_t, std::string> waiting_;  // lines, by the place of their frame in the plan
+    std::size_t next_line_ = 0;
 };
 
 }  // namespace burin

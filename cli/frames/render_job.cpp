@@ -20,24 +20,29 @@ std::vector<OutputFile> files_of_job(const Arguments& a) {
     return {{"--stats", a.stats}};
 }
 
-/// The picture's file. Refuses what can be known to fail before the scene is read.
-OutputOptions checked_output(const Arguments& a, const Method& method) {
-    OutputOptions output = output_options(a);
-    check_names_of_frames(a, output.path);
+/// The files of a frame. Refuses what can be known to fail before the scene is read.
+std::vector<OutputOptions> checked_outputs(const Arguments& a, const Method& method) {
+    std::vector<OutputOptions> list = output_list(a);
+    check_names_of_frames(a, list);
     std::vector<OutputFile> outputs = files_of_job(a);
-    outputs.push_back({"--output", output.path});
+    for (const OutputOptions& output : list) outputs.push_back({output.is_deep ? "--deep" : "--output", output.path});
     if (!a.save_lines.empty()) outputs.push_back({"--save-lines", a.save_lines});
+    refuse_same_files(outputs);
     refuse_to_overwrite(outputs, {a.input});
-    const bool has_paths = is_vector(output.format);
-    if (output.format != OutputFormat::exr && !has_paths) check_display_writer(output.path);
-    if (has_paths && method.name != "abuffer") {
-        throw UsageError("--output: method " + std::string(method.name) +
-                         " makes pixels only; draw a vector file with method abuffer");
+    for (const OutputOptions& output : list) {
+        const bool has_paths = is_vector(output.format);
+        if (output.format != OutputFormat::exr && !has_paths) check_display_writer(output.path);
+        if (has_paths && method.name != "abuffer") {
+            throw UsageError("--output: method " + std::string(method.name) +
+                             " makes pixels only; draw a vector file with method abuffer");
+        }
+        if (output.is_deep && method.name != "abuffer") throw UsageError("--deep: needs method abuffer");
+        if (output.is_deep && !a.views.empty()) throw UsageError("--views: cannot stand beside --deep; remove one");
     }
     if (a.memory_bytes > 0 && method.name != "abuffer") {
         throw UsageError("--memory: method " + std::string(method.name) + " cannot render in pieces; abuffer can");
     }
-    return output;
+    return list;
 }
 
 }  // namespace
@@ -45,23 +50,26 @@ OutputOptions checked_output(const Arguments& a, const Method& method) {
 RenderJob::RenderJob(const Arguments& a)
     : arguments_(a),
       method_(method_of(a)),
-      output_(checked_output(a, method_)),
+      outputs_(checked_outputs(a, method_)),
       described_(describe_input(a)),
-      plan_(plan_frames(a, described_.description, output_.path)),
+      plan_(plan_frames(a, described_.description, outputs_)),
       renderer_(load(std::move(described_))) {}
 
 FrameRenderer RenderJob::load(DescribedInput described) {
     const std::vector<OutputFile> once = files_of_job(arguments_);
     std::vector<OutputFile> outputs = existing_outputs(plan_);
     outputs.insert(outputs.end(), once.begin(), once.end());
+    refuse_same_files(all_outputs(plan_, once));
     refuse_to_overwrite(outputs, {arguments_.input});
     // The first frame stands for all: what becomes of later ones is seen when their turn comes.
-    output_.path = plan_.picture.path_of(plan_.frames.front());
-    check_output_file(output_.path);
-    if (plan_.lines) check_output_file(plan_.lines->path_of(plan_.frames.front()));
+    for (std::size_t i = 0; i < outputs_.size(); ++i) {
+        outputs_[i].path = plan_.outputs[i].path_of(plan_.frames.front());
+    }
+    // Those that are there may stand where nothing can be written.
+    if (!arguments_.skips_existing) check_files_of(plan_, plan_.frames.front());
     for (const OutputFile& file : once) check_output_file(file.path);
     if (plan_.frames.size() > 1 && !arguments_.is_dry_run) sweep_outputs(plan_);
-    return FrameRenderer(arguments_, method_, load_input(std::move(described), arguments_, outputs), plan_, output_);
+    return FrameRenderer(arguments_, method_, load_input(std::move(described), arguments_, outputs), plan_, outputs_);
 }
 
 std::vector<double> RenderJob::missing_frames() const {

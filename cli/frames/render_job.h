@@ -20,7 +20,7 @@ class RenderJob {
 
     const Method& method() const { return method_; }
     const FramePlan& plan() const { return plan_; }
-    const OutputOptions& output() const { return output_; }  ///< of the first frame
+    const std::vector<OutputOptions>& outputs() const { return outputs_; }  ///< of the first frame
     FrameRenderer& renderer() { return renderer_; }
 
     /// Those of the frames that are not there, whole and made from the same input; all of them without --skip-existing.
@@ -31,7 +31,7 @@ class RenderJob {
 
     const Arguments& arguments_;
     const Method& method_;
-    OutputOptions output_;
+    std::vector<OutputOptions> outputs_;
     DescribedInput described_;
     FramePlan plan_;
     FrameRenderer renderer_;

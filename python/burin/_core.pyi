@@ -15,6 +15,7 @@ class Cancelled(RuntimeError):
 
 def version() -> str: ...
 def abi() -> int: ...
+def file_notes() -> list[str]: ...
 
 class Work:
     def __init__(
@@ -26,6 +27,8 @@ class Work:
         camera_to_world: Sequence[float],
         fov_deg: float,
         ortho_height: float,
+        shift: Sequence[float],
+        pixel_aspect: float,
         frame: int,
         threads: int,
         memory_bytes: int,

@@ -20,10 +20,17 @@ _ORDER = "RGBAXYZ"
 class Picture:
     """Pixels in layers. numpy.asarray(picture) is what a display shows: (height, width, 3) bytes, sRGB."""
 
-    def __init__(self, core: _core.Picture, find_drawing: Callable[[], "Drawing"]) -> None:
+    def __init__(
+        self,
+        core: _core.Picture,
+        find_drawing: Callable[[], "Drawing"],
+        find_all: Optional[Callable[[], "Drawing"]] = None,
+    ) -> None:
         self._core = core
         self._find_drawing = find_drawing
+        self._find_all = find_all or find_drawing
         self._drawing: Optional[Drawing] = None
+        self._all: Optional[Drawing] = None
 
     @property
     def channels(self) -> list[str]:
@@ -73,6 +80,13 @@ class Picture:
         if self._drawing is None:
             self._drawing = self._find_drawing()
         return self._drawing
+
+    def restyle(self, style: str) -> "Picture":
+        """The same view drawn by a style sheet: its name, file or text. Lines of all classes are found when this is
+        first called; sheets with the same crease_angle and contours can draw them."""
+        if self._all is None:
+            self._all = self._find_all()
+        return self._all.draw(style)
 
     @property
     def notes(self) -> list[str]:
@@ -124,6 +138,7 @@ class Drawing:
         self._used = used  # what drawing it calls
         self._find_for_paths = for_paths  # None: it was found by a style sheet, which paths are made by
         self._for_paths: Optional[_core.Drawing] = None
+        self._notes: list[str] = []
 
     def __len__(self) -> int:
         """How many straight pieces there are."""
@@ -141,7 +156,9 @@ class Drawing:
 
     def encode(self, format: str, style: Optional[str] = None) -> bytes:
         """The bytes of a file: "svg", "pdf", "dxf", and those of pictures."""
-        return self._written(format, style).encode(format, style)
+        file = self._written(format, style).encode(format, style)
+        self._notes = _core.file_notes()
+        return file
 
     def svg(self, style: Optional[str] = None) -> str:
         return self.encode("svg", style).decode()
@@ -150,6 +167,12 @@ class Drawing:
         """Into a file, whose suffix says the format."""
         path = _arrays.path(path)
         self._written(os.path.splitext(path)[1].lstrip(".").lower(), style).write(path, style)
+        self._notes = _core.file_notes()
+
+    @property
+    def notes(self) -> list[str]:
+        """What the file that was made last does not have as it stands, such as colours that vary along a path."""
+        return list(self._notes)
 
     def _written(self, format: str, style: Optional[str]) -> _core.Drawing:
         """What a file is made of: paths need lines that a style sheet asked for, or the scene's look as one."""

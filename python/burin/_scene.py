@@ -189,12 +189,13 @@ class Scene:
         """Draws the scene.
 
         size: width and height in pixels. The view: camera (a name), or matrix (camera to world), or eye, target, up;
-        fov (degrees, vertical) or ortho (visible height); crop (x0, y0, x1, y1), samples, frame. How to work: layers
+        fov (degrees, vertical) or ortho (visible height), shift of the lens (right, up; heights of the picture);
+        pixel_aspect (a pixel's width / its height); crop (x0, y0, x1, y1), samples, frame. How to work: layers
         ("beauty,lines,Z"), threads, memory (bytes), progress (a function of the part that is done; it returns True to
         stop).
         """
-        finder = self._finder(size, view)
-        return Picture(self._core.render(self._work(size, **view)), finder)
+        finder, find_all = self._finder(size, view), self._finder(size, view, find_all=True)
+        return Picture(self._core.render(self._work(size, **view)), finder, find_all)
 
     def find_lines(
         self, size: Optional[Sequence[int]] = None, *, style: Optional[str] = None, find: str = "view", **view: Any
@@ -245,6 +246,8 @@ class Scene:
         up: Vector = (0, 1, 0),
         fov: float = 0,
         ortho: float = 0,
+        shift: Sequence[float] = (0, 0),
+        pixel_aspect: float = 0,
         crop: Sequence[int] = (0, 0, 0, 0),
         samples: int = 0,
         frame: int = 0,
@@ -259,6 +262,8 @@ class Scene:
             raise UsageError("camera, matrix and eye: give one of them")
         if eye is None and target is not None:
             raise UsageError("target: needs eye")
+        if len(shift) != 2:
+            raise UsageError("shift: must be two numbers")
         if (fov or ortho) and matrix is None and eye is None:
             raise UsageError("fov and ortho: need eye or matrix")
         to_world = _arrays.matrix("matrix", matrix)
@@ -272,6 +277,8 @@ class Scene:
             to_world,
             fov,
             ortho,
+            [float(n) for n in shift],
+            pixel_aspect,
             frame,
             threads,
             memory,

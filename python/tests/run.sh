@@ -22,6 +22,13 @@ venv=$folder/venv/bin/python
 BURIN=$program "$venv" -m pytest -q -p no:cacheprovider --import-mode=importlib "$here" || fail "tests"
 installed=$("$venv" -c 'import burin, os; print(os.path.dirname(burin.__file__))')
 "$venv" -m mypy --strict --cache-dir "$folder/mypy" "$installed" || fail "types"
+# Notebooks run with the package that is installed here.
+"$venv" -m ipykernel install --sys-prefix --name python3 >/dev/null 2>&1 || fail "python3-ipykernel is not installed"
+for notebook in "$package"/notebooks/*.ipynb; do
+    "$venv" -m nbconvert --to notebook --execute --ExecutePreprocessor.timeout=300 --output-dir "$folder" "$notebook" \
+        >"$folder/nbconvert" 2>&1 || { cat "$folder/nbconvert" >&2; fail "$notebook"; }
+    "$venv" "$here/check_notebook.py" "$notebook" "$folder/$(basename "$notebook")" || fail "$notebook"
+done
 # Metaclasses of pybind11 are no part of what users see, nor how its classes without arguments are made.
 "$venv" -m mypy.stubtest burin._core --ignore-missing-stub >"$folder/stubtest" 2>&1 || true
 if grep '^error:' "$folder/stubtest" | grep -v -e 'metaclass differs' -e '__init__ is inconsistent'; then

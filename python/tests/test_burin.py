@@ -61,6 +61,16 @@ def test_a_picture_has_layers_as_arrays():
     assert np.isfinite(depth[60, 80])  # and lives as long as its arrays
 
 
+def test_a_picture_is_drawn_again_in_another_style():
+    scene = burin.Scene((POINTS, QUADS))
+    picture = scene.render(SIZE)
+    styled = {style: picture.restyle(style).png() for style in ("technical", "blueprint")}
+    assert len({picture.png(), *styled.values()}) == 3
+    assert styled["technical"] == scene.find_lines(SIZE, find="all").draw("technical").png()
+    again = picture.restyle("technical")
+    assert again.restyle("blueprint").png() == styled["blueprint"]
+
+
 def test_a_crop_is_a_part_of_the_picture():
     whole = burin.draw((POINTS, QUADS), size=SIZE)
     part = burin.draw((POINTS, QUADS), size=SIZE, crop=(20, 30, 100, 90))
@@ -115,6 +125,36 @@ def test_meshes_of_real_packages():
     assert list(burin.mesh_arrays(mesh).attributes) == ["heat"]
 
 
+def test_a_mesh_of_vtk():
+    vtk = pytest.importorskip("vtkmodules.vtkCommonDataModel", reason="python3-vtk9 is not installed")
+    from vtkmodules.vtkCommonCore import vtkPoints
+
+    points, polygons, mesh = vtkPoints(), vtk.vtkCellArray(), vtk.vtkPolyData()
+    points.SetDataTypeToDouble()
+    for point in POINTS:
+        points.InsertNextPoint(point)
+    for quad in QUADS:
+        polygons.InsertNextCell(4, quad.tolist())
+    mesh.SetPoints(points)
+    mesh.SetPolys(polygons)
+    assert burin.draw(mesh, size=SIZE).png() == burin.draw((POINTS, QUADS), size=SIZE).png()
+
+
+@pytest.mark.parametrize("package", ["trimesh", "pyvista", "open3d"])
+def test_meshes_of_packages_that_are_there(package):
+    module = pytest.importorskip(package, reason=f"{package} is not installed")
+    faces = triangles()
+    if package == "trimesh":
+        mesh = module.Trimesh(POINTS, faces, process=False)
+    elif package == "pyvista":
+        mesh = module.PolyData(POINTS, np.insert(faces, 0, 3, axis=1).ravel())
+    else:
+        mesh = module.geometry.TriangleMesh(
+            module.utility.Vector3dVector(POINTS), module.utility.Vector3iVector(faces.astype(np.int32))
+        )
+    assert burin.draw(mesh, size=SIZE).png() == burin.draw((POINTS, faces), size=SIZE).png()
+
+
 def test_points_far_from_the_origin_keep_their_precision():
     near = burin.draw((POINTS, QUADS), size=SIZE)
     far = burin.draw((POINTS + np.array([1e7, -2e7, 3e7]), QUADS), size=SIZE)
@@ -161,6 +201,10 @@ def test_bad_meshes_are_named(mesh, error, message):
         ({"eye": (0, float("nan"), 0)}, "eye: must be three numbers"),
         ({"target": (0, 0, 0)}, "target: needs eye"),
         ({"fov": 30}, "need eye or matrix"),
+        ({"pixel_aspect": 0.01}, "pixel_aspect"),
+        ({"pixel_aspect": float("nan")}, "pixel_aspect"),
+        ({"shift": (1, 2, 3)}, "shift: must be two numbers"),
+        ({"shift": (1, 0)}, "shift"),
         ({"eye": (3, 3, 3), "fov": float("nan")}, "fov"),
         ({"matrix": np.eye(3)}, "matrix: must be a matrix"),
         ({"matrix": 2 * np.eye(4)}, "camera_to_world"),
@@ -220,6 +264,33 @@ def test_svg_of_a_plain_scene_and_of_a_style():
     assert svg.startswith("<?xml") and svg == plain._repr_svg_()
     assert scene.find_lines(SIZE, style="technical").svg() != svg
     assert plain.encode("pdf").startswith(b"%PDF")
+
+
+def test_pixels_may_be_wide_and_lenses_shifted():
+    scene = burin.Scene((POINTS, QUADS))
+    view = {"eye": (3, 2, 5), "fov": 30}
+    plain = scene.render(SIZE, **view)
+    wide = scene.render((80, 120), pixel_aspect=2, **view)
+    assert abs(wide["id.object"].astype(bool).mean() - plain["id.object"].astype(bool).mean()) < 0.005
+    shifted = scene.render(SIZE, shift=(0.25, 0), **view)
+    assert np.abs(shifted["lines.A"][:, :90].astype(float) - plain["lines.A"][:, 30:120].astype(float)).max() < 0.02
+    with pytest.raises(burin.UsageError, match="pixel_aspect"):
+        scene.find_lines((80, 120), pixel_aspect=2, **view).svg()
+
+
+def test_files_have_notes():
+    sheet = "[style.a]\ncolor = '=mix(#ff0000, #0000ff, x / 160)'\n[[set]]\nname = 's'\nclasses = ['crease']\nstyle = 'a'\n"
+    lines = burin.Scene((POINTS, QUADS)).find_lines(SIZE, style=sheet)
+    assert lines.notes == []
+    assert lines.svg() and "one colour" in lines.notes[0]
+
+
+def test_what_moves_is_shown_at_rest():
+    scene = burin.Scene()
+    scene.add_text("[[object]]\nshape = 'box'\n[[object.key]]\nframe = 1\ntranslate = [1, 0, 0]\n")
+    assert "at rest" in scene.notes[0]
+    with pytest.raises(burin.UsageError, match="burin render -f 3"):
+        scene.render(SIZE, frame=3)
 
 
 def test_notebooks_show_pictures():

@@ -26,6 +26,7 @@ class PartReader {
     explicit PartReader(std::string_view part) : part_(part), rest_(part) {}
 
     bool is_at_end() const { return rest_.empty(); }
+    bool begins_with(char c) const { return rest_.starts_with(c); }
     bool take(std::string_view word) {
         if (!rest_.starts_with(word)) return false;
         rest_.remove_prefix(word.size());
@@ -74,6 +75,7 @@ std::vector<double> parse_frame_list(std::string_view text) {
         const std::int64_t first = reader.number();
         std::int64_t last = first, step = kPerFrame;
         if (reader.take("-") || reader.take(":") || reader.take("..")) {
+            if (reader.begins_with('.')) reader.fail("two points stand between the frames of a range, not more");
             last = reader.number();
             if (reader.take("x")) {
                 step = reader.number();

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 const fs::path kRoot = BURIN_SOURCE_FOLDER;
 const std::vector<std::string> kFolders = {"base",  "image",  "mesh",    "kernels", "view",   "lines",   "shading",
                                            "scene", "render", "abuffer", "strokes", "output", "methods", "compare",
-                                           "cli",   "burin",  "bench",   "python",  "blender"};
+                                           "web",   "cli",    "burin",   "bench",   "python", "blender"};
 
 std::string text_of(const fs::path& path) {
     std::ostringstream text;

@@ -7,6 +7,7 @@ FOLDER is empty; the environment is that of run.sh.
 
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -195,7 +196,41 @@ def stamps_are_burned_in():
     assert pictures("stamped")["0001.png"] != pictures("range")["0001.png"]
 
 
-for check in (make_scene, frames_are_files, failures_end_with_status_1, interrupts_stop_at_once,
+def library_is_found():
+    """The preference, $BURIN, PATH, beside the add-on, an installed tree, the system: in this order."""
+    tree = FOLDER / "tree"
+    addon = tree / "share/burin/blender/burin_blender"
+    addon.mkdir(parents=True)
+    shutil.copy(SOURCE / "blender/burin_blender/library.py", addon)
+    code = ("import importlib.util as u, sys; s = u.spec_from_file_location('library', sys.argv[1]); "
+            "m = u.module_from_spec(s); s.loader.exec_module(m); print(m.find_library(sys.argv[2]))")
+
+    def found(preference="", **environment):
+        env = {"PATH": "/nothing", **environment}
+        done = subprocess.run([sys.executable, "-c", code, addon / "library.py", preference], env=env, check=True,
+                              capture_output=True, text=True)
+        return done.stdout.strip()
+
+    def put(*places):
+        for place in places:
+            (tree / place).parent.mkdir(parents=True, exist_ok=True)
+            (tree / place).touch(mode=0o755)
+        return str(tree / places[-1])
+
+    assert found() == "libburin.so.0"
+    for place in ("lib/x86_64-linux-gnu", "lib", "share/burin/blender/burin_blender"):
+        beside = put(f"{place}/libburin.so.0")
+        assert found() == beside
+    in_path = put("path/bin/burin", "path/lib/x86_64-linux-gnu/libburin.so.0")
+    assert found(PATH=str(tree / "path/bin")) == in_path
+    named = put("named/burin", "named/libburin.so.0")
+    assert found(PATH=str(tree / "path/bin"), BURIN=str(tree / "named/burin")) == named
+    preferred = put("preferred/libburin.so.0")
+    for preference in ("preferred/libburin.so.0", "preferred", "preferred/burin"):
+        assert found(str(tree / preference), BURIN=str(tree / "named/burin")) == preferred
+
+
+for check in (library_is_found, make_scene, frames_are_files, failures_end_with_status_1, interrupts_stop_at_once,
               python_package_is_no_matter, zip_is_installed, stamps_are_burned_in):
     check()
     print(f"PASSED {check.__name__}", flush=True)

@@ -3,7 +3,6 @@
 import math
 import os
 import pathlib
-import sys
 
 import bpy
 import numpy as np

@@ -126,6 +126,25 @@ def cryptomatte_node_finds_objects():
     assert np.abs(cover["cube"] + cover["monkey"] - alpha).max() < 2e-3
 
 
+def cryptomatte_has_the_levels_asked_for():
+    """Many small objects in one pixel or two."""
+    scene = new_scene(8, 8)
+    scene.burin.line_types, scene.burin.samples = set(), "8"
+    for i in range(9):
+        add("cube", f"cube {i}", size=.2, location=(.2 * (i % 3), .2 * (i // 3), 0))
+    layer = scene.view_layers[0]
+    layer.use_pass_cryptomatte_object = True
+    shares = {}
+    for levels, passes in ((2, 1), (6, 3), (16, 8)):
+        layer.pass_cryptomatte_depth = levels
+        pixels = render("levels")
+        names = [name for name in pixels if "CryptoObject" in name]
+        assert len(names) == 4 * passes, names
+        shares[levels] = sum(pixels[name] for name in names if name[-1] in "GA").sum()
+        alpha = pixels["ViewLayer.Combined.A"].sum()
+    assert shares[2] < shares[6] < shares[16] and abs(shares[16] - alpha) < 2e-3, (shares, alpha)
+
+
 def film_has_paper():
     scene, first, second = two_layers()
     second.use = False
@@ -160,4 +179,5 @@ def borders_are_parts_of_the_picture():
 
 
 main([layers_are_equal_to_single_renders, compositor_gets_the_passes, passes_are_what_they_say,
-      cryptomatte_node_finds_objects, film_has_paper, borders_are_parts_of_the_picture])
+      cryptomatte_node_finds_objects, cryptomatte_has_the_levels_asked_for, film_has_paper,
+      borders_are_parts_of_the_picture])

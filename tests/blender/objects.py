@@ -1,4 +1,4 @@
-"""What objects of Blender become: kinds, instances, visibility, materials, marks; and Burin's own render of the same."""
+"""What objects of Blender become: kinds, instances, visibility, materials, marks; and Burin's own render of them."""
 
 import os
 import subprocess
@@ -28,7 +28,7 @@ def link(thing):
 
 
 def all_kinds_have_polygons():
-    scene = new_scene()
+    new_scene()
     bpy.ops.object.text_add()
     bpy.context.object.data.extrude = .1
     bpy.ops.curve.primitive_bezier_circle_add()
@@ -72,7 +72,7 @@ def polygons_stay_what_they_are():
 
 
 def instances_share_a_mesh():
-    scene = new_scene()
+    new_scene()
     cube = add("cube", "cube", size=.3)
     for i in range(3):
         copy = link(cube.copy())
@@ -146,7 +146,7 @@ def geometry_nodes_are_instances():
 
 
 def particles_are_instances():
-    scene = new_scene()
+    new_scene()
     ball = add("ico_sphere", "ball", radius=.1, location=(0, 0, -50))
     plane = add("plane", "plane", size=4)
     plane.modifiers.new("p", "PARTICLE_SYSTEM")
@@ -184,7 +184,7 @@ def visibility_is_blenders():
 
 
 def occlusion_only_hides_and_has_no_lines():
-    scene = new_scene()
+    new_scene()
     front = add("cube", "front", size=1, location=(1.5, -2.4, 2))
     add("cube", "back", size=3)
     full = render()["ViewLayer.Lines.A"]
@@ -275,7 +275,7 @@ def marked_edges_are_lines():
 
 
 def modifiers_count_as_for_a_render():
-    scene = new_scene()
+    new_scene()
     cube = add("cube", "cube")
     levels = cube.modifiers.new("s", "SUBSURF")
     levels.levels, levels.render_levels = 1, 3
@@ -291,7 +291,7 @@ def modifiers_count_as_for_a_render():
 
 
 def what_is_not_finite_is_named():
-    scene = new_scene()
+    new_scene()
     add("cube", "cube")
     bad = add("monkey", "bad monkey")
     bad.data.vertices[5].co.x = float("nan")
@@ -310,8 +310,11 @@ def what_cannot_be_drawn_is_an_error():
     for what, message in (("scene.camera = None", "no camera"),
                           ("scene.camera.data.type = 'PANO'", "panoramic"),
                           ("scene.render.use_multiview = True", "Stereoscopy"),
-                          ("scene.camera.scale = (0, 1, 1)", "camera_to_world"),
-                          ("scene.camera.location.x = float('nan')", "camera_to_world")):
+                          ("scene.camera.scale = (0, 1, 1)", "camera camera is skewed or flattened"),
+                          ("scene.camera.scale = (-1, 1, 1)", "mirrored"),
+                          ("scene.camera.location.x = float('nan')", "camera_to_world"),
+                          ("scene.camera.parent, scene.objects['cube'].scale = scene.objects['cube'], (1, 1, 3)",
+                           "camera camera is skewed or flattened")):
         scene = new_scene()
         add("cube", "cube")
         alter(scene, what)
@@ -365,8 +368,8 @@ def pictures_are_those_of_the_program():
                  f"matrix = {numbers(np.array(thing.matrix_world).ravel())}"]
     (FOLDER / "scene.toml").write_text("\n".join(text) + "\n")
     sets = [part for line in settings_lines(scene, bpy.context.view_layer) for part in ("--set", line)]
-    subprocess.run([os.environ["BURIN_PROGRAM"], "render", FOLDER / "scene.toml", "-o", FOLDER / "own.exr", "-q", *sets],
-                   check=True)
+    subprocess.run([os.environ["BURIN_PROGRAM"], "render", FOLDER / "scene.toml", "-o", FOLDER / "own.exr", "-q",
+                    *sets], check=True)
     own = read(FOLDER / "own.exr")
     for layer, prefix in (("Combined", ""), ("Lines", "lines.")):
         for letter in "RGBA":

@@ -1,4 +1,4 @@
-"""Properties, panels and operators: what is drawn exists, what is set reaches the library, and nothing is left behind."""
+"""Properties, panels and operators: what is drawn exists, what is set reaches the library, nothing is left behind."""
 
 import json
 import os
@@ -307,6 +307,15 @@ def materials_and_objects_have_a_say():
     assert abs((ink(smoother) - ink(smoother, "R")) - (ink(colored) - ink(colored, "R"))) < 0.02 * plain
 
 
-main((materials_and_objects_have_a_say, all_panels_draw, warnings_are_shown, blender_shows_its_own_panels, every_choice_is_taken_by_the_library,
-      presets_have_sliders, sheets_can_be_edited, wrong_sheets_are_errors, a_sheet_only_where_it_is_needed,
-      comes_and_goes))
+main((
+    materials_and_objects_have_a_say,
+    all_panels_draw,
+    warnings_are_shown,
+    blender_shows_its_own_panels,
+    every_choice_is_taken_by_the_library,
+    presets_have_sliders,
+    sheets_can_be_edited,
+    wrong_sheets_are_errors,
+    a_sheet_only_where_it_is_needed,
+    comes_and_goes,
+))

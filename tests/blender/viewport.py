@@ -250,6 +250,12 @@ def what_is_shown():
     yield from at_rest()
     if (screen() != whole).any():
         raise Fails("something is left of local view")
+    space().show_object_viewport_mesh = False
+    yield from at_rest()
+    if (screen()[EDGE:-EDGE, EDGE:-EDGE] < 250).any():
+        raise Fails("meshes are seen though the viewport shows none")
+    space().show_object_viewport_mesh = True
+    yield from same_as_library()
 
 
 def only_what_changes_is_read():

@@ -121,6 +121,15 @@ TEST(LibraryPicture, ChannelsHaveTheirTypesAndSizes) {
     EXPECT_EQ(burin_channel_name(picture.get(), 8), nullptr);
 }
 
+TEST(LibraryPicture, CryptomatteHasTheRanksOfItsSetting) {
+    Scene scene = two_cubes();
+    for (const std::size_t ranks : {2, 8}) {
+        scene.set("crypto.ranks=" + std::to_string(ranks));
+        const Picture picture = scene.render({.width = 20, .height = 15}, {.layers = "CryptoObject"});
+        EXPECT_EQ(picture.channel_names().size(), 2 * ranks);
+    }
+}
+
 TEST(LibraryPicture, PixelsAreThoseOfADisplay) {
     Scene scene = two_cubes();
     scene.set("picture.background=#336699");

@@ -252,6 +252,29 @@ TEST(LibraryScene, WhatReadersLeaveOutIsNoted) {
     EXPECT_EQ(burin_note(scene.get(), -1), nullptr);
 }
 
+TEST(LibraryScene, WhatMovesIsShownAtRestAndSaysSo) {
+    const std::string box = "[[object]]\nshape = \"box\"\n", keys =
+                                                                 "[[object.key]]\nframe = 1\ntranslate = [0, 0, 0]\n"
+                                                                 "[[object.key]]\nframe = 5\ntranslate = [3, 0, 0]\n";
+    Scene still, moving;
+    still.add_text(box);
+    moving.add_text(box + keys);
+    EXPECT_TRUE(still.notes().empty());
+    ASSERT_EQ(moving.notes().size(), 1u);
+    EXPECT_NE(moving.notes()[0].find("at rest"), std::string::npos);
+    const View view{.width = 40, .height = 30, .camera_to_world = looking({3, 4, 6}, {0, 0, 0})};
+    View later = view;
+    later.frame = 5;
+    EXPECT_TRUE(exr_of(still, view) == exr_of(moving, view));
+    EXPECT_NO_THROW(still.render(later));  // is for style sheets
+    std::string text;
+    EXPECT_EQ(failure_of([&] { moving.render(later); }, &text), BURIN_BAD_ARGUMENT);
+    EXPECT_NE(text.find("burin render -f 5"), std::string::npos) << text;
+    EXPECT_EQ(failure_of([&] { moving.find_lines(later); }), BURIN_BAD_ARGUMENT);
+    moving.clear();
+    EXPECT_NO_THROW(moving.render(later));
+}
+
 TEST(LibraryScene, WithoutObjectsThereIsPaper) {
     Scene scene;
     EXPECT_EQ(failure_of([&] { scene.render(kSmall); }), BURIN_BAD_ARGUMENT);  // no camera can be fitted to nothing

@@ -149,5 +149,53 @@ TEST_F(Blur, MistakesAreNamed) {
     EXPECT_FALSE(std::filesystem::exists(folder_.file("out.svg")));
 }
 
+TEST_F(Blur, MattesAreMeans) {
+    for (const Arguments& blur : std::vector<Arguments>{{"--shutter", "-0.5,0.5"},
+                                                        {"--lens", "0.2", "--focus", "8"},
+                                                        {"--shutter", "-0.5,0.5", "--style", "technical"}}) {
+        Arguments options = blur;
+        options.insert(options.end(), {"--frame", "5", "--blur-samples", "9", "--layers", "beauty,lines,crypto"});
+        const Image mean = image(kMoving, options);
+        for (const auto& [layer, sum_of] :
+             {std::pair("CryptoObject", "A"), std::pair("CryptoMaterial", "A"), std::pair("CryptoLine", "lines.A"),
+              std::pair("CryptoLineObject", "lines.A")}) {
+            const auto whole = mean.find(sum_of)->as<std::uint16_t>();
+            std::vector<double> sums(whole.size(), 0.0);
+            bool has_soft = false;
+            for (const char* const channel : {"00.G", "00.A", "01.G", "01.A", "02.G", "02.A"}) {
+                const auto shares = mean.find(std::string(layer) + channel)->as<float>();
+                for (std::size_t i = 0; i < sums.size(); ++i) {
+                    sums[i] += static_cast<double>(shares[i]);
+                    has_soft = has_soft || (shares[i] > 0.05f && shares[i] < 0.45f);
+                }
+            }
+            EXPECT_TRUE(has_soft) << layer;
+            for (std::size_t i = 0; i < sums.size(); ++i)
+                ASSERT_NEAR(sums[i], static_cast<double>(float_from_half(whole[i])), 1e-3) << layer << " " << i;
+        }
+        const std::string once = bytes(kMoving, options);
+        for (const Arguments& other : std::vector<Arguments>{{"-j", "1"}, {"-j", "7"}, {"--memory", "60M"}}) {
+            Arguments again = options;
+            again.insert(again.end(), other.begin(), other.end());
+            EXPECT_TRUE(bytes(kMoving, again) == once) << blur.front() << other.front();
+        }
+    }
+}
+
+TEST_F(Blur, LineAndMotionAreThoseOfTheMiddle) {
+    const Arguments plain = {"--frame", "5", "--layers", "Z,line,motion"};
+    Arguments blurred = plain;
+    blurred.insert(blurred.end(), {"--shutter", "-0.5,0.5", "--blur-samples", "4"});
+    const Image sharp = image(kMoving, plain), mean = image(kMoving, blurred);
+    double most = 0;
+    for (const Channel& channel : sharp.channels()) {
+        const Channel* const other = mean.find(channel.name);
+        ASSERT_NE(other, nullptr) << channel.name;
+        EXPECT_TRUE(std::equal(channel.bytes.begin(), channel.bytes.end(), other->bytes.begin())) << channel.name;
+    }
+    for (const float u : mean.find("forward.u")->as<float>()) most = std::max(most, static_cast<double>(u));
+    EXPECT_GT(most, 1) << "of a whole frame";
+}
+
 }  // namespace
 }  // namespace burin::test::blur_test

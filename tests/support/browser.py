@@ -50,9 +50,9 @@ class Browser:
     def run(self, script, *arguments):
         return self.post("/execute/sync", script=script, args=list(arguments))
 
-    def wait_until(self, script, what):
+    def wait_until(self, script, what, *arguments):
         for _ in range(400):
-            if self.run("return " + script):
+            if self.run("return " + script, *arguments):
                 return
             time.sleep(0.05)
         raise AssertionError(f"never happened: {what}")

@@ -21,6 +21,7 @@ export class Orbit {
     this.distance = 1;
     this.fov = 35;
     this.isOrthographic = false;
+    this.taken = null;  // the view as it was given, as long as nothing moves
   }
 
   /** The directions at which yaw is 0 and a quarter turn, across the axis. */
@@ -58,10 +59,19 @@ export class Orbit {
     this.pitch = Math.max(-steepest, Math.min(steepest, Math.asin(Math.max(-1, Math.min(1, dot(direction, this.up))))));
     this.yaw = Math.atan2(dot(direction, side), dot(direction, ahead));
     if (this.isOrthographic) this.distance = height / (2 * Math.tan(this.fov * Math.PI / 360));
+    this.taken = {eye: eye.map(rounded), target: target.map(rounded), up: up.map(rounded)};
+    if (this.isOrthographic) this.taken.height = rounded(height);
+    else this.taken.fov = rounded(fov);
+  }
+
+  toggleProjection() {
+    this.isOrthographic = !this.isOrthographic;
+    this.taken = null;
   }
 
   /** The view as a message has it. */
   camera() {
+    if (this.taken) return this.taken;
     const {back} = this.axes;
     const camera = {
       eye: sum(this.target, scaled(back, this.distance)).map(rounded),
@@ -74,23 +84,27 @@ export class Orbit {
   }
 
   turn(right, up) {
+    this.taken = null;
     this.yaw -= right;
     this.pitch = Math.max(-steepest, Math.min(steepest, this.pitch + up));
   }
 
   look(yaw, pitch) {
+    this.taken = null;
     this.yaw = yaw;
     this.pitch = Math.max(-steepest, Math.min(steepest, pitch));
   }
 
   /** Moves what is seen by a part of the picture's height. */
   pan(right, down) {
+    this.taken = null;
     const {right: x, above: y} = this.axes;
     this.target = sum(this.target, scaled(x, -right * this.seenHeight), scaled(y, down * this.seenHeight));
   }
 
   /** Comes nearer (factor < 1) to a place, in parts of the picture's height from its middle. */
   zoom(factor, right = 0, down = 0) {
+    this.taken = null;
     const before = this.seenHeight;
     this.distance = Math.max(1e-9, Math.min(1e12, this.distance * factor));
     const change = before - this.seenHeight;

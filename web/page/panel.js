@@ -174,7 +174,9 @@ export class Panel {
     const number = element("input", {type: "number", step: "any", className: "number"});
     number.setAttribute("aria-label", p.name);
     const unit = element("span", {className: "unit", textContent: p.unit});
-    const has = {value: p.value, min: p.min ?? 0, max: p.max ?? Math.max(1, 4 * p.value)};
+    // Where a range is wide, the slider has its ordinary part; the field beside it takes all of it.
+    const min = p.min ?? 0, most = p.value > min ? min + 8 * (p.value - min) : Infinity;
+    const has = {value: p.value, min, max: Math.min(p.max ?? Math.max(1, 4 * p.value), most)};
     const scale = scaleOf(has);
     const slider = element("input", {type: "range", min: 0, max: 1, step: "any"});
     slider.oninput = () => {

@@ -33,6 +33,7 @@ export class SceneView {
 
   viewChanged() {
     this.viewWaits = true;
+    this.canvas.dataset.rests = "no";
     this.lastChange = performance.now();
     this.ask();
   }
@@ -77,6 +78,7 @@ export class SceneView {
     this.previewNumber = 0;
     if (this.viewWaits) this.ask();
     else if (isGood) this.askForFull();
+    else this.canvas.dataset.rests = "yes";
   }
 
   async show(frame) {
@@ -91,6 +93,7 @@ export class SceneView {
       this.canvas.height = frame.height;
     }
     this.context.transferFromImageBitmap(bitmap);
+    if (frame.full && !this.viewWaits && !this.previewNumber) this.canvas.dataset.rests = "yes";
     this.onShown(frame);
   }
 }

@@ -8,6 +8,7 @@ const $ = selector => document.querySelector(selector);
 const canvas = $("#picture");
 const orbit = new Orbit();
 let panel = null, view = null, toastTimer = 0, addressTimer = 0;
+let fittedBy = "";  // the kind of view that is shown as the server has fitted it to the size of the picture
 
 function toast(text, isFault = false) {
   $("#toast").textContent = text;
@@ -73,11 +74,17 @@ async function takeView(kind) {
   const answer = await view.connection.request(kind === "home" ? {kind, size: view.size} : view.message(kind));
   if (answer.kind === "error") return toast(answer.message, true);
   orbit.take(answer);
+  fittedBy = kind;
   viewChanged();
 }
 
+function sizeChanged() {
+  if (orbit.taken && fittedBy) takeView(fittedBy);
+  else view.viewChanged();
+}
+
 function toggleProjection() {
-  orbit.isOrthographic = !orbit.isOrthographic;
+  orbit.toggleProjection();
   viewChanged();
 }
 
@@ -270,7 +277,7 @@ async function begin(connection, hello) {
   }
   listenToPointers();
   listenToKeys();
-  new ResizeObserver(() => view.viewChanged()).observe($("#paper"));
+  new ResizeObserver(sizeChanged).observe($("#paper"));
   document.body.dataset.ready = "yes";
 }
 

@@ -1,0 +1,335 @@
+#include "output/deep_samples.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/murmur_hash.h"
+#include "image/half.h"
+#include "render/film.h"
+#include "render/matte_names.h"
+#include "render/seen_parts.h"
+
+namespace burin {
+namespace {
+
+/// Of alphas: less than this is nothing.
+constexpr double kNothing = 1e-6;
+
+/// LayeredSum makes alphas and colours of layers that lie over each other, nearest first, so that they add up to given
+/// shares.
+class LayeredSum {
+  public:
+    /// With it the next layer has its share, by what is really left. Mattes of lines are as exact as half precision is.
+    double alpha_of_line(double share) {
+        wanted_left_ -= share;
+        return wanted_left_ < kNothing ? 1.0 : std::clamp(share / left_, 0.0, 1.0);
+    }
+    /// Of the last line, which makes up for what rounding did to the others, as far as its matte bears that.
+    double alpha_of_last_line(double share) {
+        constexpr double kMost = 8e-5;
+        wanted_left_ -= share;
+        if (wanted_left_ < kNothing) return 1.0;
+        const double all = std::clamp(left_ - wanted_left_, share - kMost, share + kMost);
+        return std::clamp(all / left_, 0.0, 1.0);
+    }
+    /// With it all layers up to the next one have their shares: what rounding took or added is made up for.
+    double alpha_of_surface(double share) {
+        wanted_left_ -= share;
+        return wanted_left_ < kNothing ? 1.0 : std::clamp(1.0 - wanted_left_ / left_, 0.0, 1.0);
+    }
+    glm::dvec3 color_for(const glm::dvec3& color) {
+        wanted_color_ += color;
+        return glm::max((wanted_color_ - color_) / left_, 0.0);
+    }
+    /// As they were rounded.
+    void add(double alpha, const glm::dvec3& color) {
+        color_ += color * left_;
+        left_ *= 1.0 - alpha;
+    }
+    /// For the last layer: with it the sum is `whole`, colour and alpha.
+    double last_alpha(const glm::dvec4& whole) const { return std::clamp(1.0 - (1.0 - whole.a) / left_, 0.0, 1.0); }
+    glm::dvec3 last_color(const glm::dvec4& whole) const { return glm::max((glm::dvec3(whole) - color_) / left_, 0.0); }
+    bool has_any_left() const { return left_ > kNothing; }
+    double left() const { return left_; }
+
+  private:
+    double left_ = 1, wanted_left_ = 1;
+    glm::dvec3 color_{0.0}, wanted_color_{0.0};
+};
+
+/// ClassShares has the lines of each class, however many owners they have, add up to the coverage on the film.
+class ClassShares {
+  public:
+    void expect(LineClass c, double share) {
+        OfClass& own = of(c);
+        own.wanted += share;
+        ++own.count;
+    }
+    /// Of the next line; `share`: its own.
+    double next(LineClass c, double share) {
+        OfClass& own = of(c);
+        if (--own.count > 0) return share;
+        const double on_film = static_cast<double>(float_from_half(Film::to_half(static_cast<float>(own.wanted))));
+        return std::max(on_film - own.sum, 0.0);
+    }
+    /// As it was rounded.
+    void add(LineClass c, double share) { of(c).sum += share; }
+
+  private:
+    struct OfClass {
+        double wanted = 0, sum = 0;
+        int count = 0;
+    };
+    OfClass& of(LineClass c) { return classes_[static_cast<std::size_t>(c)]; }
+
+    std::array<OfClass, kLineClassCount> classes_;
+};
+
+/// As the film has it.
+template <typename Vector>
+Vector as_on_film(const Vector& color) {
+    Vector on_film;
+    for (int c = 0; c < Vector::length(); ++c)
+        on_film[c] = static_cast<double>(float_from_half(Film::to_half(static_cast<float>(color[c]))));
+    return on_film;
+}
+
+double nearest_of(const SurfaceSet& surfaces) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = 0; i < surfaces.instances.size(); ++i) {
+        const std::size_t count = surfaces.instances[i].mesh->positions.size();
+        for (std::uint32_t v = 0; v < count; ++v) nearest = std::min(nearest, -surfaces.view_position(i, v).z);
+    }
+    return std::isfinite(nearest) ? nearest : 0.0;
+}
+
+}  // namespace
+
+void DeepSampler::Names::add(std::string_view name) {
+    names.push_back(matte_name(name));
+    ids.push_back(murmur_hash(names.back()));
+}
+
+DeepSampler::DeepSampler(const Frame& frame)
+    : is_float_(frame.scene->deep.is_float), is_orthographic_(frame.surfaces.projection.orthographic) {
+    if (is_orthographic_) nearest_ = nearest_of(frame.surfaces);
+    for (const std::string_view name : kLineClassNames) classes_.add(name);
+    for (const Material& material : frame.scene->materials) materials_.add(material.name);
+    for (const SceneObject& object : frame.scene->objects) objects_.add(object.name);
+}
+
+std::vector<NamedIds> DeepSampler::names() const {
+    const auto group = [](const char* channel, const char* component, const Names& known) {
+        NamedIds ids{channel, component, {}};
+        for (std::size_t i = 0; i < known.ids.size(); ++i) ids.names.emplace(known.ids[i], known.names[i]);
+        return ids;
+    };
+    return {group("lineid", "line class", classes_), group("materialid", "material", materials_),
+            group("objectid", "object", objects_)};
+}
+
+float DeepSampler::z_of(float distance) const {
+    const float z = is_orthographic_ ? static_cast<float>(static_cast<double>(distance) - nearest_ + 1.0) : distance;
+    return std::clamp(z, std::numeric_limits<float>::min(), std::numeric_limits<float>::max());
+}
+
+float DeepSampler::rounded(double value) const {
+    const auto number = static_cast<float>(value);
+    return is_float_ ? number : float_from_half(Film::to_half(number));
+}
+
+void DeepSampler::find_parts(const Mattes::DeepPixel& pixel) {
+    parts_.clear();
+    has_line_behind_ = false;
+    const LeftByLines left(pixel);
+    left_ = left.all;
+    double covered = 0;
+    constexpr float kFar = std::numeric_limits<float>::infinity();
+    float nearest = kFar, nearest_opaque = kFar;
+    glm::dvec3 color(0.0);
+    for (const DeepSurface& surface : pixel.surfaces) {
+        parts_.push_back(
+            {&surface, nullptr, surface.distance, static_cast<double>(surface.share), glm::dvec3(surface.color)});
+        covered += static_cast<double>(surface.share);
+        color += parts_.back().color;
+        nearest = std::min(nearest, surface.distance);
+        if (surface.is_opaque) nearest_opaque = std::min(nearest_opaque, surface.distance);
+    }
+    for (const DeepLine& line : pixel.lines) {
+        if (line.line.is_hidden) continue;
+        // Lines are drawn over all surfaces of a pixel, be it one that the line is no line of.
+        const float distance = std::min(line.distance, line.is_behind ? nearest_opaque : nearest);
+        has_line_behind_ = has_line_behind_ || distance > nearest;
+        const double share = left.seen_of(line);
+        parts_.push_back({nullptr, &line, distance, share, color_over(line, color, covered) * share});
+    }
+    const auto is_before = [](const Part& a, const Part& b) {
+        if (a.distance != b.distance) return a.distance < b.distance;
+        return a.line != nullptr && b.line == nullptr;
+    };
+    for (std::size_t i = 1; i < parts_.size(); ++i) {  // a few; equal ones keep their order
+        for (std::size_t k = i; k > 0 && is_before(parts_[k], parts_[k - 1]); --k) std::swap(parts_[k], parts_[k - 1]);
+    }
+}
+
+DeepSample& DeepSampler::add_sample(const Part& part, double alpha, const glm::dvec3& color) {
+    DeepSample& sample = samples_.emplace_back();
+    sample.z = z_of(part.distance);
+    if (samples_.size() > 1)
+        sample.z =
+            std::max(sample.z, std::nextafter(samples_[samples_.size() - 2].z, std::numeric_limits<float>::max()));
+    sample.alpha = rounded(alpha);
+    for (int c = 0; c < 3; ++c) sample.color[c] = rounded(color[c]);
+    const MatteOwner& owner = part.line != nullptr ? part.line->line.owner : part.surface->owner;
+    sample.object = objects_.id_of(owner.object);
+    sample.material = materials_.id_of(owner.material);
+    if (part.line == nullptr) return sample;
+    sample.line = classes_.ids[static_cast<std::size_t>(part.line->line.drawn_as)];
+    sample.invisibility = part.line->invisibility;
+    return sample;
+}
+
+/// Where all lines are in front: surfaces have the samples that they would have without these.
+void DeepSampler::lay_lines_first() {
+    LayeredSum lines, surfaces;
+    ClassShares classes;
+    glm::dvec3 color(0.0);
+    std::size_t surface_count = 0, line_count = 0;
+    for (const Part& part : parts_) {
+        if (part.line != nullptr) {
+            ++line_count;
+            classes.expect(part.line->line.drawn_as, part.share);
+            continue;
+        }
+        color += part.color;
+        ++surface_count;
+    }
+    glm::dvec3 rest = as_on_film(color);
+    for (const Part& part : parts_) {
+        LayeredSum& sum = part.line != nullptr ? lines : surfaces;
+        if (!sum.has_any_left()) {
+            if (part.line != nullptr) --line_count;
+            continue;
+        }
+        const bool is_last = part.surface != nullptr && --surface_count == 0;
+        const glm::dvec3 own_color = is_last ? rest : part.color;
+        if (part.surface != nullptr) rest -= part.color;
+        double alpha = 0;
+        if (part.line != nullptr) {
+            const double share = classes.next(part.line->line.drawn_as, part.share);
+            alpha = --line_count == 0 ? sum.alpha_of_last_line(share) : sum.alpha_of_line(share);
+        } else {
+            alpha = sum.alpha_of_surface(part.share);
+        }
+        const DeepSample& sample = add_sample(part, alpha, sum.color_for(own_color));
+        if (part.line != nullptr) classes.add(part.line->line.drawn_as, static_cast<double>(sample.alpha) * sum.left());
+        sum.add(static_cast<double>(sample.alpha), glm::dvec3(sample.color));
+    }
+}
+
+/// The beauty on the film, which is rounded with each kind of ink that is laid over it.
+glm::dvec4 DeepSampler::beauty() const {
+    glm::dvec4 surfaces(0.0), below(0.0), above(0.0);
+    for (const Part& part : parts_) {
+        glm::dvec4& kind = part.surface != nullptr ? surfaces : part.line->line.is_below ? below : above;
+        kind += glm::dvec4(part.color, part.share);
+    }
+    if (is_mean_) return as_on_film(surfaces + below + above);
+    const double left = 1.0 - above.a;
+    glm::dvec4 film = as_on_film(surfaces);
+    if (below.a > 0 && left > kNothing) film = as_on_film(film * (1.0 - below.a / left) + below / left);
+    return as_on_film(film * left + above);
+}
+
+/// Where lines are seen through glass: all takes what it has of the beauty, one after the other.
+void DeepSampler::lay_in_turns() {
+    LayeredSum all;
+    ClassShares classes;
+    for (const Part& part : parts_) {
+        if (part.line != nullptr) classes.expect(part.line->line.drawn_as, part.share);
+    }
+    // What the film has by rounding alone is the first surface's.
+    const glm::dvec4 whole = beauty();
+    glm::dvec4 rounding = whole;
+    for (const Part& part : parts_)
+        rounding -= glm::dvec4(part.color, part.share) * (part.surface != nullptr ? left_ : 1.0);
+    double in_front = 0;  // of surfaces
+    for (const Part& part : parts_) {
+        double share = part.share * (part.surface != nullptr ? left_ : 1.0);
+        glm::dvec3 color = part.color * (part.surface != nullptr ? left_ : 1.0);
+        if (part.surface != nullptr) {
+            share += rounding.a;
+            color += glm::dvec3(rounding);
+            rounding = glm::dvec4(0.0);
+        }
+        double alpha = part.line != nullptr ? all.alpha_of_line(classes.next(part.line->line.drawn_as, share))
+                                            : all.alpha_of_surface(share);
+        glm::dvec3 own_color;
+        if (all.has_any_left()) {
+            own_color = all.color_for(color);
+            if (&part == &parts_.back() && part.surface != nullptr) {
+                alpha = all.last_alpha(whole);
+                own_color = all.last_color(whole);
+            }
+        } else if (part.surface != nullptr) {  // lines leave nothing of it: as it would be without them
+            alpha = std::min(part.share / std::max(1.0 - in_front, part.share), 1.0);
+            own_color = part.color * (alpha / part.share);
+        } else {
+            continue;
+        }
+        if (part.surface != nullptr) in_front += part.share;
+        const DeepSample& sample = add_sample(part, alpha, own_color);
+        if (part.line != nullptr) classes.add(part.line->line.drawn_as, static_cast<double>(sample.alpha) * all.left());
+        all.add(static_cast<double>(sample.alpha), glm::dvec3(sample.color));
+    }
+}
+
+/// Lines behind opaque surfaces that cover the whole pixel.
+void DeepSampler::add_hidden(const Mattes::DeepPixel& pixel) {
+    hidden_.clear();
+    for (const DeepLine& line : pixel.lines) {
+        if (!line.line.is_hidden) continue;
+        double covered = 0;
+        for (const DeepSurface& surface : pixel.surfaces)
+            covered += surface.distance < line.distance ? static_cast<double>(surface.share) : 0.0;
+        if (pixel.is_mean) {  // surfaces have what lines leave of them
+            for (const Part& part : parts_) covered += part.line != nullptr ? part.share : 0.0;
+        }
+        if (covered > 1.0 - kNothing) hidden_.push_back(&line);
+    }
+    std::stable_sort(hidden_.begin(), hidden_.end(),
+                     [](const DeepLine* a, const DeepLine* b) { return a->distance < b->distance; });
+    LayeredSum sum;
+    for (const DeepLine* const line : hidden_) {
+        if (!sum.has_any_left()) continue;
+        const double share = static_cast<double>(line->line.share);
+        const double alpha = sum.alpha_of_line(share);
+        const Part part{nullptr, line, line->distance, share, {}};
+        const DeepSample& sample = add_sample(part, alpha, sum.color_for(color_over(*line, {}, 0.0) * share));
+        sum.add(static_cast<double>(sample.alpha), glm::dvec3(sample.color));
+    }
+}
+
+std::span<const DeepSample> DeepSampler::samples_of(const Mattes::DeepPixel& pixel) {
+    samples_.clear();
+    if (pixel.lines.empty() && pixel.surfaces.size() == 1) {  // mostly
+        const DeepSurface& only = pixel.surfaces.front();
+        add_sample({&only, nullptr, only.distance, 0, {}}, static_cast<double>(only.share),
+                   as_on_film(glm::dvec3(only.color)));
+        return samples_;
+    }
+    is_mean_ = pixel.is_mean;
+    find_parts(pixel);
+    if (has_line_behind_ || pixel.is_mean) {
+        lay_in_turns();
+    } else {
+        lay_lines_first();
+    }
+    add_hidden(pixel);
+    return samples_;
+}
+
+}  // namespace burin

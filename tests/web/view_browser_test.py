@@ -1,0 +1,315 @@
+#!/usr/bin/env python3
+"""Looks at a scene by `burin view` in a real browser, with a real mouse, and uses all of it.
+
+    view_browser_test.py BURIN FOLDER    screenshots are left in FOLDER
+"""
+import base64
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+from browser import PRESS, RELEASE, Browser, at, center_of, check
+
+SCENE = """
+[[object]]
+name = "ring"
+shape = "torus"
+rotate = [65, 10, 0]
+segments = 96
+tube_segments = 48
+[[object]]
+name = "cube"
+shape = "box"
+size = [0.5, 0.5, 0.5]
+rotate = [0, 30, 0]
+translate = [0.1, 0.15, 0]
+"""
+
+# A text that stands for all pixels that the page shows.
+PICTURE = """(() => {
+  const from = document.querySelector('#picture'), to = document.createElement('canvas');
+  [to.width, to.height] = [from.width, from.height];
+  to.getContext('2d').drawImage(from, 0, 0);
+  return to.toDataURL();
+})()"""
+RESTS = "document.querySelector('#picture').dataset.rests === 'yes'"
+
+
+class Page:
+    """The page of a running `burin view`."""
+
+    def __init__(self, browser, folder):
+        self.browser = browser
+        self.folder = folder
+
+    def open(self, url):
+        self.browser.post("/url", url=url)
+        self.browser.wait_until("document.body.dataset.ready === 'yes'", "the page begins")
+        self.settle()
+
+    def settle(self):
+        """Waits until nothing moves and the picture is in full quality."""
+        time.sleep(0.3)  # what was done just now has reached the page
+        self.browser.wait_until(RESTS, "the picture comes to rest")
+
+    def picture(self):
+        self.settle()
+        return self.browser.run("return " + PICTURE)
+
+    def changes(self, act, what):
+        before = self.picture()
+        act()
+        self.browser.wait_until(f"{PICTURE} !== arguments[0]", what, before)
+        self.settle()
+
+    def drag(self, dx, dy, button=0):
+        start = center_of(self.browser, "#picture")
+        steps = [at(start), {"type": "pointerDown", "button": button}]
+        steps += [at((start[0] + dx * i / 8, start[1] + dy * i / 8)) for i in range(1, 9)]
+        self.browser.mouse(*steps, {"type": "pointerUp", "button": button})
+
+    def click(self, selector):
+        self.browser.run("document.querySelector(arguments[0]).scrollIntoView({block: 'nearest'})", selector)
+        self.browser.mouse(at(center_of(self.browser, selector)), PRESS, RELEASE)
+
+    def wheel(self, amount):
+        x, y = center_of(self.browser, "#picture")
+        self.browser.post("/actions", actions=[{"type": "wheel", "id": "wheel", "actions": [
+            {"type": "scroll", "x": round(x), "y": round(y), "deltaX": 0, "deltaY": amount, "duration": 0}]}])
+
+    def downloaded(self, selector, name):
+        path = os.path.join(self.folder, name)
+        if os.path.exists(path):
+            os.remove(path)
+        self.click(selector)
+        for _ in range(400):
+            if os.path.exists(path) and os.path.getsize(path) > 0:
+                time.sleep(0.1)
+                with open(path, "rb") as file:
+                    return file.read()
+            time.sleep(0.05)
+        raise AssertionError(f"{name} was never saved")
+
+    def screenshot(self, path):
+        self.browser.save(path, self.browser.send("GET", self.browser.session + "/screenshot"))
+
+
+def start(burin, scene, *more):
+    server = subprocess.Popen([burin, "view", scene, "--no-browser", "-q", *more], stdout=subprocess.PIPE, text=True)
+    url = server.stdout.readline().strip()
+    check(url.startswith("http://127.0.0.1:"), "the address stands on standard output")
+    return server, url
+
+
+def test_view(page):
+    page.changes(lambda: page.drag(160, 60), "dragging turns the scene")
+    page.changes(lambda: page.drag(60, 20, button=2), "dragging with the right button moves it")
+    page.changes(lambda: page.wheel(-300), "the wheel zooms")
+    browser = page.browser
+    browser.run("document.querySelector('#picture').focus()")
+    for key, what in (("\ue012", "an arrow turns"), ("+", "plus zooms"), ("p", "P makes it parallel"),
+                      ("3", "3 shows it from behind"), ("h", "H shows hidden lines"), ("f", "F fits it")):
+        page.changes(lambda: browser.keys(key), what)
+    browser.keys("?")
+    browser.wait_until("document.querySelector('#help').open", "? shows the keys")
+    browser.keys("\ue00c")
+    browser.wait_until("!document.querySelector('#help').open", "Escape hides them")
+    page.changes(lambda: page.click("#home"), "Home is the first view")
+
+
+def test_looks(page):
+    browser = page.browser
+    page.changes(lambda: page.click("[data-lines=silhouette]"), "a click takes silhouettes away")
+    page.changes(lambda: page.click("[data-lines=silhouette]"), "and brings them back")
+    page.changes(lambda: page.click("#hidden [value=none]"), "hidden lines can be left out")
+    set_value = "const e = document.querySelector(arguments[0]); e.value = arguments[1];" \
+                "e.dispatchEvent(new Event(e.type === 'range' ? 'input' : 'change', {bubbles: true}))"
+    page.changes(lambda: browser.run(set_value, "#width", "0.8"), "the slider makes lines wider")
+    page.changes(lambda: browser.run(set_value, "#shading", "lambert"), "surfaces can be shaded")
+    page.changes(lambda: browser.run(set_value, "#style", "comic"), "a style is chosen")
+    check(browser.run("return document.querySelector('[data-lines=crease]').disabled"),
+          "classes are the style's then")
+    slider = "#parameters [data-name=width] input[type=range]"
+    browser.wait_until(f"document.querySelector('{slider}')", "the style's parameters have sliders")
+    x, y = center_of(browser, slider)
+    page.changes(lambda: browser.mouse(at((x, y)), PRESS, at((x + 25, y)), RELEASE), "a parameter's slider changes it")
+
+
+def test_sheet(page):
+    """A sheet is edited in place; what is wrong is shown at its line."""
+    browser = page.browser
+    page.click("#edit")
+    area = "document.querySelector('#editor textarea')"
+    browser.wait_until(f"{area}.value.includes('style_version')", "the text of the sheet is there")
+    replace = f"""const a = {area}, from = a.value.indexOf(arguments[0]);
+      a.focus(); a.setSelectionRange(from, from + arguments[0].length); return from"""
+    element = browser.post("/element", using="css selector", value="#editor textarea")
+    element = element["element-6066-11e4-a52e-4f735466cecf"]
+
+    def edit(old, new):
+        check(browser.run(replace, old) >= 0, f"the sheet has {old}")
+        browser.post(f"/element/{element}/value", text=new)
+
+    good = page.picture()
+    edit("taper = {", "tapir = {")
+    browser.wait_until("!document.querySelector('.fault-text').hidden", "a mistake is shown")
+    text = browser.run("return document.querySelector('.fault-text').textContent")
+    line = browser.run(f"return {area}.value.slice(0, {area}.value.indexOf('tapir')).split('\\n').length")
+    check(f"line {line}" in text and "tapir" in text, f"at its line: {text}")
+    place = browser.run("const f = document.querySelector('.fault').getBoundingClientRect(),"
+                        f" a = {area}.getBoundingClientRect(); return [f.top - a.top, f.height, {area}.scrollTop]")
+    check(abs(place[0] + place[2] - 8 - (line - 1) * place[1]) < 3, f"the line is marked: {place}, {line}")
+    page.screenshot(os.path.join(page.folder, "mistake.png"))
+    check(page.picture() == good, "the picture stays")
+    edit("tapir = {", "taper = {")
+    browser.wait_until("document.querySelector('.fault-text').hidden", "it goes away when it is mended")
+    edit("* apart", "* aprat")
+    browser.wait_until("document.querySelector('.fault-text').textContent.includes('aprat')",
+                       "what is wrong in an expression is shown, too")
+    edit("* aprat", "* 0.2")
+    browser.wait_until("document.querySelector('.fault-text').hidden", "and mended")
+    check(page.picture() != good, "an edited sheet draws at once")
+    page.click("#edit")
+
+
+def test_explain(page):
+    browser = page.browser
+    page.click("#picture")
+    browser.wait_until("!document.querySelector('#explained').hidden", "a click explains the pixel")
+    text = browser.run("return document.querySelector('#explained').textContent")
+    check("pixel" in text and "surfaces and tests" in text and len(text) > 200, f"with reasons: {text[:300]}")
+    page.screenshot(os.path.join(page.folder, "explained.png"))
+    page.click("#explained .close")
+
+
+def test_files(page, burin):
+    """What is saved is what `burin render` draws of the scene that is saved."""
+    page.settle()
+    png = page.downloaded("#save-png", "scene.png")
+    svg = page.downloaded("#save-svg", "scene.svg")
+    page.downloaded("#save-toml", "scene-view.toml")
+    check(png.startswith(b"\x89PNG") and b"<svg" in svg[:400], "files of these kinds")
+    again = os.path.join(page.folder, "again.png")
+    subprocess.run([burin, "render", os.path.join(page.folder, "scene-view.toml"), "-o", again, "-q"], check=True)
+    with open(again, "rb") as file:
+        check(file.read() == png, "the scene draws the same PNG")
+    page.settle()
+    shown = page.browser.run("return " + PICTURE)
+    as_shown = page.browser.post("/execute/async", script="""
+      const [bytes, done] = arguments, image = new Image();
+      image.onload = () => {
+        const to = document.createElement('canvas');
+        [to.width, to.height] = [image.width, image.height];
+        to.getContext('2d').drawImage(image, 0, 0);
+        done(to.toDataURL());
+      };
+      image.src = 'data:image/png;base64,' + bytes;""", args=[base64.b64encode(png).decode()])
+    check(as_shown == shown, "and the page shows the same pixels")
+    page.click("#copy")
+    page.browser.wait_until("document.body.dataset.command", "the command line is there")
+    command = page.browser.run("return document.body.dataset.command")
+    check(command.startswith("burin render "), command)
+
+
+def test_address(page):
+    """The address has the view and the look, so a page that is loaded again shows the same."""
+    page.settle()
+    time.sleep(0.5)
+    before = page.picture()
+    url = page.browser.run("return location.href")
+    check("eye=" in url and "style=comic" in url, f"the address says it: {url[:300]}")
+    page.browser.post("/url", url="about:blank")
+    page.open(url)
+    page.browser.wait_until(f"{PICTURE} === arguments[0]", "the address is restored", before)
+
+
+def test_two_pages(browser, burin, scene, folder):
+    """Each page has its own view."""
+    server, url = start(burin, scene)
+    try:
+        page = Page(browser, folder)
+        page.open(url)
+        first = browser.send("GET", browser.session + "/window")
+        before = page.picture()
+        other = browser.post("/window/new", type="tab")["handle"]
+        browser.post("/window", handle=other)
+        page.open(url)
+        page.changes(lambda: page.drag(-120, 40), "the second page turns its scene")
+        browser.send("DELETE", browser.session + "/window")
+        browser.post("/window", handle=first)
+        check(page.picture() == before, "the first page does not")
+    finally:
+        server.terminate()
+        check(server.wait(timeout=10) == 0, "SIGTERM ends it with 0")
+    browser.wait_until("document.body.dataset.ended === 'yes'", "the page says that its server has ended")
+
+
+def test_sizes(page):
+    """It works as narrow as a telephone, in the dark as well."""
+    browser = page.browser
+    for name, width, height, scheme in (("dark", 1366, 820, "dark"), ("narrow", 390, 844, "light"),
+                                        ("narrow-dark", 390, 844, "dark")):
+        browser.post("/goog/cdp/execute", cmd="Emulation.setEmulatedMedia",
+                     params={"features": [{"name": "prefers-color-scheme", "value": scheme}]})
+        browser.post("/goog/cdp/execute", cmd="Emulation.setDeviceMetricsOverride",
+                     params={"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 500})
+        page.settle()
+        time.sleep(0.3)
+        check(browser.run("return document.documentElement.scrollWidth <= innerWidth"), f"{name}: nothing is cut off")
+        cut = browser.run("""return [...document.querySelectorAll('button, select, input')].filter(e => {
+            const b = e.getBoundingClientRect(); return b.width > 0 && (b.left < 0 || b.right > innerWidth); }).length""")
+        check(cut == 0, f"{name}: {cut} controls reach beyond the side")
+        check(browser.run("return document.querySelector('#picture').clientHeight") > 200, f"{name}: the picture has room")
+        page.screenshot(os.path.join(page.folder, name + ".png"))
+        if width < 500:
+            page.changes(lambda: page.drag(60, 30), "it can be turned there, too")
+    browser.post("/goog/cdp/execute", cmd="Emulation.clearDeviceMetricsOverride", params={})
+
+
+def main():
+    burin, folder = sys.argv[1:3]
+    os.makedirs(folder, exist_ok=True)
+    scratch = tempfile.mkdtemp()
+    browser = server = None
+    try:
+        scene = os.path.join(scratch, "scene.toml")
+        with open(scene, "w") as file:
+            file.write(SCENE)
+        server, url = start(burin, scene)
+        browser = Browser(scratch, 1366, 820)
+        browser.post("/goog/cdp/execute", cmd="Browser.setDownloadBehavior",
+                     params={"behavior": "allow", "downloadPath": folder})
+        page = Page(browser, folder)
+        page.open(url)
+        page.screenshot(os.path.join(folder, "view.png"))
+        test_view(page)
+        test_looks(page)
+        test_explain(page)
+        test_sheet(page)
+        test_files(page, burin)
+        test_address(page)
+        test_sizes(page)
+        messages = [m for m in browser.console() if m["level"] in ("SEVERE", "WARNING")]
+        check(not messages, f"the console is clean: {messages}")
+        server.send_signal(signal.SIGTERM)
+        began = time.time()
+        check(server.wait(timeout=10) == 0, "SIGTERM ends it with 0, with the page open")
+        print(f"ended {1000 * (time.time() - began):.0f} ms after SIGTERM")
+        browser.wait_until("document.body.dataset.ended === 'yes'", "the page says so")
+        test_two_pages(browser, burin, scene, folder)
+        print("burin view works in", browser.run("return navigator.userAgent"))
+    finally:
+        if browser:
+            browser.close()
+        if server and server.poll() is None:
+            server.kill()
+        shutil.rmtree(scratch, ignore_errors=True)
+
+
+if __name__ == "__main__":
+    main()
