@@ -1,6 +1,7 @@
-"""The reference of the library as a page: what burin/burin.h says of each function, struct and constant.
+"""The reference of the library as a page: what burin/burin.h says of each function, struct and constant, and the
+classes of burin/burin.hpp without the bodies of their functions.
 
-    api_reference.py HEADER > page.md
+    api_reference.py BURIN_H BURIN_HPP > page.md
 """
 
 import re
@@ -139,12 +140,69 @@ def cell(text: str) -> str:
     return " ".join(text.split()).replace("|", "\\|")
 
 
-def page(header: str) -> str:
+def closing(text: str, at: int) -> int:
+    """The place behind the brace that closes the one at `at`."""
+    depth = 0
+    while True:
+        depth += {"{": 1, "}": -1}.get(text[at], 0)
+        at += 1
+        if depth == 0:
+            return at
+
+
+def members_of(body: str) -> list[str]:
+    """Public members of a class, with their comments, functions as declarations."""
+    lines, at, is_public = [], 0, not re.match(r"\s*(public|private):", body)
+    while at < len(body):
+        rest = body[at:]
+        if found := re.match(r"\s*(public|private|protected):", rest):
+            is_public = found.group(1) == "public"
+            at += found.end()
+        elif found := re.match(r"\s*///<? ?(.*)\n", rest):
+            if is_public:
+                if rest.lstrip().startswith("///<") and lines:
+                    lines[-1] += "  // " + found.group(1)
+                else:
+                    lines.append("    // " + found.group(1))
+            at += found.end()
+        elif found := re.match(r"\s+", rest):
+            at += found.end()
+        else:
+            end, parentheses = at, 0
+            while True:
+                sign = body[end]
+                parentheses += {"(": 1, ")": -1}.get(sign, 0)
+                if sign == ";" and parentheses == 0:
+                    text, at = body[at:end], end + 1
+                    break
+                if sign == "{":
+                    if parentheses == 0 and re.search(r"\)( const| noexcept| override)*( : .*)?$", body[at:end].rstrip(), re.S):
+                        text, at = body[at:end], closing(body, end)
+                        break
+                    end = closing(body, end) - 1
+                end += 1
+            text = re.sub(r"\)( const)?( noexcept)? : .*", r")\1\2", " ".join(re.sub(r"///?<?.*", "", text).split()))
+            if is_public and not re.search(r"= (delete|default)$", text):
+                lines.append("    " + text.strip() + ";")
+    return lines
+
+
+def classes_of(header: str) -> list[tuple[str, str, str]]:
+    """Name, comment and declaration of each class."""
+    classes = []
+    for found in re.finditer(r"((?:^///.*\n)+)^(class|struct) (\w+)[^{;]*\{", header, re.M):
+        body = header[found.end():closing(header, found.end() - 1) - 1]
+        comment = " ".join(line.lstrip("/ ") for line in found.group(1).strip().split("\n"))
+        classes.append((found.group(3), comment, "\n".join([f"{found.group(2)} {found.group(3)} {{", *members_of(body), "};"])))
+    return classes
+
+
+def page(header: str, cpp_header: str) -> str:
     sections = read(header)
     names = {name for _, entries in sections for entry in entries for name in entry.names()}
     rules = text_of(header[header.index("/*") + 2:header.index("*/")])
-    lines = ["# API reference", "", "Made of the comments of `burin/burin.h`; [the library](library.md) shows how it is used.", ""]
-    lines.append(linked(rules[rules.index("Rules"):].replace("docs/conventions.md", "[conventions](conventions.md)"), names))
+    lines = ["# API reference", "", "Made of the comments of `burin/burin.h` and `burin/burin.hpp`; [the library](library.md) shows how it is used.", ""]
+    lines.append(linked(rules[rules.index("Rules"):], names))
     for title, entries in sections:
         lines += ["", f"## {title[0].upper()}{title[1:]}", ""]
         for entry in entries:
@@ -161,9 +219,16 @@ def page(header: str) -> str:
                     mark = f'<a id="{anchor.group(0)}"></a>' if anchor else ""
                     lines.append(f"| {mark}`{cell(declaration)}` | {linked(cell(comment), names)} |")
                 lines.append("")
-    return "\n".join(lines) + "\n"
+    lines += ["", "## In C++", "", "What `burin/burin.hpp` has in the namespace `burin`; calls that fail throw `burin::Error`.", ""]
+    for name, comment, code in classes_of(cpp_header):
+        lines += [f"### burin::{name} {{#burin::{name}}}", "", linked(comment, names), "", "```cpp", code, "```", ""]
+    text = "\n".join(lines) + "\n"
+    return re.sub(r"(?<!\]\()(?<![\w\[])docs/([\w/-]+)\.md", r"[\1](\1.md)", text)  # pages that comments name
 
 
 if __name__ == "__main__":
-    with open(sys.argv[1], encoding="utf-8") as file:
-        print(page(file.read()), end="")
+    texts = []
+    for path in sys.argv[1:]:
+        with open(path, encoding="utf-8") as file:
+            texts.append(file.read())
+    print(page(*texts), end="")

@@ -21,16 +21,7 @@ def slug(heading: str, separator: str) -> str:
     return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", separator)
 
 
-def present(nav):
-    """The list of pages without those that other branches are about to bring."""
-    missing = [page for page in ("view.md",) if not os.path.exists(os.path.join(ROOT, "docs", page))]
-    if isinstance(nav, list):
-        return [present(item) for item in nav if item not in missing]
-    return {title: present(item) for title, item in nav.items()} if isinstance(nav, dict) else nav
-
-
 def on_config(config):
-    config["nav"] = present(config["nav"])
     config["mdx_configs"].setdefault("toc", {})["slugify"] = slug
     return config
 
@@ -101,7 +92,7 @@ def on_files(files, config):
         files.append(File(page, made, config["site_dir"], config["use_directory_urls"]))
 
     waiting = ["docs/" + f.src_path for f in files if f.src_path.endswith(".md")]
-    add("api.md", api_reference.page(text_of("burin/burin.h")))
+    add("api.md", api_reference.page(text_of("burin/burin.h"), text_of("burin/burin.hpp")))
     add("decisions/index.md", index_of_decisions(files))
     copied = set()
     while waiting:

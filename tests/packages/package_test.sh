@@ -37,6 +37,8 @@ here "$1" blender -b --factory-startup --addons burin_blender --python-exit-code
 import addon_utils, burin_blender
 print("add-on", burin_blender.__file__, addon_utils.check("burin_blender"))' >"$1/log" 2>&1 || { cat "$1/log" >&2; fail "Blender"; }
 grep -q "^add-on /usr/share/blender/scripts/addons/burin_blender/__init__.py (.*, True)" "$1/log" || { cat "$1/log" >&2; fail "Blender does not load the add-on"; }
+here "$1" blender -b --factory-startup --addons burin_blender -E BURIN -o /tmp/packages/blender_#### -f 1 >"$1/log" 2>&1 || { cat "$1/log" >&2; fail "Blender does not render"; }
+[ -s "$1/root/tmp/packages/blender_0001.png" ] || fail "Blender rendered nothing"
 here "$1" dpkg --purge burin libburin0 libburin-dev python3-burin blender-burin >"$1/log" 2>&1 || { cat "$1/log" >&2; fail "they cannot be removed"; }
 left=$(find "$1/layer/upper/usr" -path '*burin*' -not -type c)
 [ -z "$left" ] || fail "what is left behind: $left"

@@ -82,6 +82,10 @@ def check_reference(page: Page, html: str) -> int:
         after = after[after.index("</pre>"):]
         end = after.find("<h")
         expect(len(re.sub(r"<[^>]*>", "", after[:end])) > 15, f"api.html says nothing of {name}")
+    classes = re.findall(r"^(?:class|struct) (\w+)", read(SOURCE, "burin", "burin.hpp"), re.M)
+    expect(len(classes) > 8, "burin.hpp declares too little")
+    for name in classes:
+        expect(f"burin::{name}" in page.ids, f"api.html has no burin::{name}")
     for field in ("pixel_aspect", "corner_uv", "for_paths"):
         expect(html.count(field) >= 2, f"api.html does not explain the field {field}")
     return len(names)
