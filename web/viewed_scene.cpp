@@ -17,8 +17,8 @@ namespace {
 std::string name_of_input(const ViewedInput& input) { return std::filesystem::path(input.path).stem().string(); }
 
 std::optional<double> first_frame(const SceneDescription& scene) {
-    if (!scene.frame_range.empty()) return scene.frame_range.front();
-    return scene.turntable ? std::optional(scene.turntable->first) : std::nullopt;
+    if (scene.frame_range.empty()) return std::nullopt;
+    return scene.frame_range.front();
 }
 
 /// Loads a scene as `burin render` does for one picture.
