@@ -58,7 +58,11 @@ ViewedScene::ViewedScene(ViewedInput input, const ViewedSceneOptions& options)
     shift_ = first_camera_.shift;
     box_ = box_of(scene_points(scene_));
     empty_copied_objects(scene_);
-    home(1, 1);  // says what is wrong with the camera before anybody looks
+    try {
+        home(1, 1);
+    } catch (const InputError& error) {  // before anybody looks
+        throw InputError(tables_.camera_place(), error.what());
+    }
 }
 
 View ViewedScene::view_of(const CameraSettings& settings, int width, int height) const {
