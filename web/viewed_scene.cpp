@@ -17,8 +17,8 @@ namespace {
 std::string name_of_input(const ViewedInput& input) { return std::filesystem::path(input.path).stem().string(); }
 
 std::optional<double> first_frame(const SceneDescription& scene) {
-    if (!scene.frame_range.empty()) return scene.frame_range.front();
-    return scene.turntable ? std::optional(scene.turntable->first) : std::nullopt;
+    if (scene.frame_range.empty()) return std::nullopt;
+    return scene.frame_range.front();
 }
 
 /// Loads a scene as `burin render` does for one picture.
@@ -58,7 +58,11 @@ ViewedScene::ViewedScene(ViewedInput input, const ViewedSceneOptions& options)
     shift_ = first_camera_.shift;
     box_ = box_of(scene_points(scene_));
     empty_copied_objects(scene_);
-    home(1, 1);  // says what is wrong with the camera before anybody looks
+    try {
+        home(1, 1);
+    } catch (const InputError& error) {  // before anybody looks
+        throw InputError(tables_.camera_place(), error.what());
+    }
 }
 
 View ViewedScene::view_of(const CameraSettings& settings, int width, int height) const {

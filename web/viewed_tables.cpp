@@ -21,6 +21,7 @@ struct ViewedTables::Tables {
     toml::table root;
     ScenePlace place;
     std::vector<Override> overrides;  ///< those that are no values of a sheet: they are in `root`
+    bool had_turntable = false;       ///< a page's camera turns as its user turns it
 };
 
 namespace {
@@ -116,16 +117,23 @@ void make_paths_absolute(const fs::path& folder, toml::table& root) {
 }  // namespace
 
 ViewedTables::ViewedTables(ViewedInput input) : input_(std::move(input)) {
-    auto tables = std::make_unique<Tables>(Tables{read_tables(input_.path), place_of_scene(input_.path), {}});
+    auto tables = std::make_unique<Tables>(Tables{read_tables(input_.path), place_of_scene(input_.path), {}, false});
     std::vector<std::pair<std::string, std::string>> parameters;
+    SheetWishes wishes;
+    wishes.style = input_.style;
     for (const Override& o : input_.overrides) {
         if (is_of_sheet(o)) {
+            wishes.overrides.push_back(o);
             parameters.emplace_back(o.key.substr(std::string_view("style.").size()), o.value);
         } else {
             apply_override(tables->root, o);
             tables->overrides.push_back(o);
         }
     }
+    // Copies of tables do not know where they stand in the file: what is wrong is found before there are any.
+    const SceneDescription first = read_scene_tables(tables->root, tables->place, SceneParts::all, wishes);
+    camera_place_ = first.cameras.empty() ? SourcePosition{input_.path} : first.cameras.front().where;
+    tables->had_turntable = tables->root.erase("turntable") > 0;
     std::string style = tables->root["style"].value<std::string>().value_or("");
     const fs::path style_folder = input_.style.empty() ? tables->place.folder : fs::path();
     if (!input_.style.empty()) style = input_.style;
@@ -207,9 +215,7 @@ std::string ViewedTables::scene_text(const Look& look, const View& view) const {
 
 bool ViewedTables::is_plain() const {
     const toml::table& root = tables_->root;
-    for (const char* const table : {"shutter", "turntable"}) {
-        if (root.contains(table)) return false;
-    }
+    if (root.contains("shutter") || tables_->had_turntable) return false;
     if (const toml::table* const picture = root["picture"].as_table()) {
         for (const char* const key : {"paper", "margin", "scale"}) {
             if (picture->contains(key)) return false;

@@ -37,6 +37,8 @@ class ViewedTables {
     /// How it looks before anybody changes anything.
     const Look& first_look() const { return first_look_; }
     const std::vector<ChosenSheet>& sheets() const { return sheets_; }
+    /// Where the camera is described that is used; or the input, if it describes none.
+    const SourcePosition& camera_place() const { return camera_place_; }
     /// Sheets of the user that are left out because they are wrong.
     const std::vector<std::string>& notes() const { return notes_; }
 
@@ -58,6 +60,7 @@ class ViewedTables {
     std::unique_ptr<const Tables> tables_;
     std::vector<ChosenSheet> sheets_;
     std::vector<std::string> notes_;
+    SourcePosition camera_place_;
     Look plain_look_;  ///< of the scene without a sheet
     Look first_look_;
 };

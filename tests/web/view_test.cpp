@@ -268,24 +268,36 @@ TEST(View, WhatCannotBeSeenIsSaidAtOnce) {
     folder.write("empty.toml", "");
     folder.write("broken.toml", "[[object]]\nshape = \"box\"\n[lines]\nwidth = 0\n");
     folder.write("blind.toml", "[[object]]\nshape = \"box\"\n[[camera]]\neye = [1, 1, 1]\ntarget = [1, 1, 1]\n");
-    const std::pair<std::vector<std::string>, int> wrong[] = {
-        {{"missing.obj"}, 1},
-        {{"picture.png"}, 1},
-        {{"empty.toml"}, 1},
-        {{"broken.toml"}, 1},
-        {{"blind.toml"}, 1},
-        {{"broken.toml", "--port", "0"}, 2},
-        {{"broken.toml", "--port", "65536"}, 2},
-        {{"broken.toml", "--style", "nobody"}, 2},
-        {{"broken.toml", "--size", "3x3"}, 2},
-        {{}, 2},
+    folder.write("styled.toml", "style = \"nobody\"\n[[object]]\nshape = \"box\"\n");
+    folder.write("good.toml", "[[object]]\nshape = \"box\"\n");
+    struct Wrong {
+        std::vector<std::string> arguments;
+        int status;
+        std::string begin;
     };
-    for (auto [arguments, status] : wrong) {
-        arguments.insert(arguments.begin(), {"view", "--no-browser"});
+    const Wrong wrong[] = {
+        {{"missing.obj"}, 1, "missing.obj: "},
+        {{"picture.png"}, 1, "picture.png: unknown kind of input"},
+        {{"empty.toml"}, 1, "empty.toml"},
+        {{"broken.toml"}, 1, "broken.toml:4:9: [lines] width"},
+        {{"blind.toml"}, 1, "blind.toml:3:1: the camera's eye and target"},
+        {{"styled.toml"}, 1, "styled.toml:1:9: style: there is no style sheet 'nobody'"},
+        {{"good.toml", "--port", "0"}, 2, "burin: --port"},
+        {{"good.toml", "--port", "65536"}, 2, "burin: --port"},
+        {{"good.toml", "--style", "nobody"}, 2, "burin: --style: there is no style sheet 'nobody'"},
+        {{"good.toml", "--set", "lines.width=0"}, 2, "burin: --set lines.width=0: "},
+        {{"good.toml", "--set", "lines.widht=1"}, 2, "burin: --set lines.widht=1: "},
+        {{"good.toml", "--style", "comic", "--set", "style.no=1"}, 2, "burin: --set style.no=1: "},
+        {{"good.toml", "--size", "3x3"}, 2, "burin: unknown option '--size'"},
+        {{}, 2, "burin: INPUT is required"},
+    };
+    for (const Wrong& w : wrong) {
+        std::vector<std::string> arguments = {"view", "--no-browser"};
+        arguments.insert(arguments.end(), w.arguments.begin(), w.arguments.end());
         const ProgramResult result = run_burin(folder.path(), arguments);
-        EXPECT_EQ(result.status, status) << arguments.back() << result.err;
+        EXPECT_EQ(result.status, w.status) << result.err;
         EXPECT_EQ(result.out, "");
-        EXPECT_TRUE(is_one_line(result.err)) << result.err;
+        EXPECT_TRUE(is_one_line(result.err) && result.err.starts_with(w.begin)) << result.err << w.begin;
     }
 }
 

@@ -32,9 +32,10 @@ SceneDescription read_back(const TemporaryFolder& folder, const std::string& tex
 
 TEST(ViewedTables, NumbersComeBackToTheBit) {
     const TemporaryFolder folder;
-    folder.write("a.toml",
-                 "[[object]]\nfile = \"models/a.obj\"\n[[camera]]\nshift = [0.1, 0.2]\nlens_radius = 2\n"
-                 "[shutter]\n[picture]\npaper = \"A4\"\nscale = \"1:3\"\nbackground = \"#204060\"\n");
+    folder.write(
+        "a.toml",
+        "[[object]]\nfile = \"models/a.obj\"\n[[camera]]\nshift = [0.1, 0.2]\nlens_radius = 2\n"
+        "[shutter]\n[turntable]\nframes = 10\n[picture]\npaper = \"A4\"\nscale = \"1:3\"\nbackground = \"#204060\"\n");
     const ViewedTables tables({folder.file("a.toml"), "", {}});
     const SceneDescription back = read_back(folder, tables.scene_text(tables.first_look(), some_view()));
     ASSERT_EQ(back.cameras.size(), 1u);
@@ -43,6 +44,7 @@ TEST(ViewedTables, NumbersComeBackToTheBit) {
     EXPECT_EQ(back.cameras[0].shift, glm::dvec2(0.1, 0.2));
     EXPECT_EQ(back.cameras[0].lens_radius, 0);
     EXPECT_FALSE(back.shutter);
+    EXPECT_FALSE(back.turntable);
     EXPECT_EQ(back.picture.width, 400);
     EXPECT_EQ(back.picture.dpi, tables.described(tables.first_look()).picture.dpi);
     EXPECT_GT(back.picture.dpi, 100);  // that of the paper

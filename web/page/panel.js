@@ -1,6 +1,9 @@
 // The panel: what lines there are, and how they look.
 import {SheetEditor} from "./sheet_editor.js";
 
+/** Of characters, each of which may take several bytes of a message. */
+const longestSheet = 20000;
+
 const $ = selector => document.querySelector(selector);
 
 function element(name, properties = {}, ...children) {
@@ -43,6 +46,8 @@ export class Panel {
   }
 
   change(part) {
+    if (part.sheet?.length > longestSheet)
+      return this.editor.showFault({line: 0, message: "the sheet is too long to be edited here; name its file by --style"});
     Object.assign(this.look, part);
     this.update();
     this.onLook(this.look);

@@ -33,7 +33,7 @@ export class SceneView {
 
   viewChanged() {
     this.viewWaits = true;
-    this.canvas.dataset.rests = "no";
+    if (this.canvas.dataset.rests !== "no") this.canvas.dataset.rests = "no";
     this.lastChange = performance.now();
     this.ask();
   }

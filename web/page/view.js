@@ -64,8 +64,10 @@ function readAddress() {
 // ---- what changes the view ----
 
 function viewChanged() {
-  $("#mark").hidden = true;
-  $("#projection").textContent = orbit.isOrthographic ? "Parallel" : "Perspective";
+  // Many times a second: what is the same already is left alone, for a browser lays out what is set.
+  if (!$("#mark").hidden) $("#mark").hidden = true;
+  const projection = orbit.isOrthographic ? "Parallel" : "Perspective";
+  if ($("#projection").textContent !== projection) $("#projection").textContent = projection;
   view.viewChanged();
   addressChanges();
 }
@@ -241,11 +243,9 @@ function lookChanged(look) {
 }
 
 function shown(frame) {
-  $("#wait").hidden = true;
-  const data = document.body.dataset;
-  data.frames = Number(data.frames ?? 0) + 1;
-  data.quality = frame.full ? "full" : "preview";
-  $("#time").textContent = `${frame.width} × ${frame.height} · drawn in ${frame.draw_ms.toFixed(0)} ms` + (frame.full ? "" : " · preview");
+  if (!$("#wait").hidden) $("#wait").hidden = true;
+  canvas.shownFrames = (canvas.shownFrames ?? 0) + 1;
+  if (frame.full) $("#time").textContent = `${frame.width} × ${frame.height} · drawn in ${frame.draw_ms.toFixed(0)} ms`;
 }
 
 function showNotes(notes) {
