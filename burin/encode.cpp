@@ -91,7 +91,12 @@ void check_layers(const burin_picture& picture, const NamedFormat& format) {
 }
 
 OutputOptions options_of(const burin_picture& picture, const NamedFormat& format, const std::string& name) {
-    return {name, format.format, format.bits, resolve_thread_count(picture.threads)};
+    OutputOptions options;
+    options.path = name;
+    options.format = format.format;
+    options.bits = format.bits;
+    options.threads = resolve_thread_count(picture.threads);
+    return options;
 }
 
 }  // namespace
