@@ -21,15 +21,22 @@ bool is_one_file(const std::string& a, const std::string& b) {
 }
 
 void refuse_same_files(const std::vector<OutputFile>& outputs) {
-    std::map<std::string, std::vector<const OutputFile*>> by_name;  // in whatever folder
+    const auto refuse = [](const OutputFile& output, const OutputFile& other) {
+        throw UsageError(output.option + ": would overwrite " + other.path + ", which " + other.option +
+                         " writes; give another name");
+    };
+    std::map<std::string, std::vector<const OutputFile*>> by_name;    // in whatever folder
+    std::map<std::pair<dev_t, ino_t>, const OutputFile*> that_exist;  // links may have any name
     for (const OutputFile& output : outputs) {
         std::vector<const OutputFile*>& known = by_name[std::filesystem::path(output.path).filename().string()];
         for (const OutputFile* other : known) {
-            if (is_one_file(other->path, output.path))
-                throw UsageError(output.option + ": would overwrite " + other->path + ", which " + other->option +
-                                 " writes; give another name");
+            if (is_one_file(other->path, output.path)) refuse(output, *other);
         }
         known.push_back(&output);
+        struct stat info {};
+        if (stat(output.path.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) continue;
+        const auto [place, is_new] = that_exist.try_emplace({info.st_dev, info.st_ino}, &output);
+        if (!is_new) refuse(output, *place->second);
     }
 }
 
