@@ -174,6 +174,7 @@ def begin():
     scene = new_scene()
     yield 0.5  # the windows are new ones
     bpy.context.preferences.view.show_splash = False
+    bpy.context.preferences.view.smooth_view = 0  # views change at once, so that a check does not see them on the way
     monkey = add("monkey", "monkey", size=2)
     modifier = monkey.modifiers.new("finer", "SUBSURF")
     modifier.levels = 2

@@ -280,8 +280,14 @@ def main():
                 assert hidden[first:].all() and p["A"][first - 1] == 1, p
         render(still, "-o", folder / "flat.exr", "--layers", "lines_hidden,surface,ids", "--hidden", "solid")
         lines = flat(folder / "flat.exr")
-        there = behind > 0
-        assert np.abs(np.where(there, lines["lines_hidden.A"] - behind, 0)).max() <= 5e-4
+        difference = lines["lines_hidden.A"] - behind
+        assert difference.min() >= -5e-4, difference.min()
+        # Lines behind a part of the pixel only are left out, so all are there for sure where nothing but one
+        # surface is seen.
+        seen = np.zeros(HEIGHT * WIDTH)
+        seen[deep.places] = [(p["qi"] == 0).sum() for p in deep.pixels]
+        alone = (behind > 0) & (seen.reshape(HEIGHT, WIDTH) == 1)
+        assert alone.sum() > 100 and np.abs(difference[alone]).max() <= 5e-4, (alone.sum(), difference[alone].max())
         render(still, "--deep", folder / "deep.exr", "--hidden", "solid", "--set", 'deep.hidden="none"')
         assert not (Deep(folder / "deep.exr").sum_up(lambda p: p["qi"] > 0, lambda p: p["A"], drop=True) > 0).any()
 
