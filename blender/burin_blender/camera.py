@@ -54,8 +54,13 @@ def view_of_camera(camera_object, depsgraph, width, height):
 
 def view_of_region(region, region_data):
     """What a 3D viewport shows: fields of burin_view."""
-    view = {"width": region.width, "height": region.height,
-            "camera_to_world": numbers_of(region_data.view_matrix.inverted().normalized())}
+    projection = region_data.window_matrix
     # A viewport that looks through a camera is perspective or not as the camera is: the last row of the matrix tells.
-    view.update(lens_of_projection(region_data.window_matrix, region_data.window_matrix[3][3] == 1))
+    is_orthographic = projection[3][3] == 1
+    to_world = region_data.view_matrix.inverted().normalized()
+    if is_orthographic:  # such views begin behind their own place, at Blender's near plane
+        nearest = (1 + projection[2][3]) / projection[2][2]
+        to_world = to_world @ Matrix.Translation((0, 0, -nearest))
+    view = {"width": region.width, "height": region.height, "camera_to_world": numbers_of(to_world)}
+    view.update(lens_of_projection(projection, is_orthographic))
     return view

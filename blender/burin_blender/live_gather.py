@@ -9,19 +9,32 @@ def visibility_of(space):
     return types, space.local_view is not None, space.use_local_collections
 
 
+MOST_SAMPLES = 16
+
+
+def traits_of(mesh):
+    """By these a mesh is told from another one that Blender has put into the same place: its sizes and some points."""
+    points = mesh.vertices
+    step = max(len(points) // MOST_SAMPLES, 1)
+    return (len(points), len(mesh.loops), len(mesh.polygons),
+            tuple(tuple(points[i].co) for i in range(0, len(points), step)))
+
+
 class KeptMeshes:
-    """Meshes that were read, by the address of Blender's data, each with the names of all objects that showed it."""
+    """Meshes that were read, by the address of Blender's data, each with its traits and the names of all objects that
+    showed it."""
 
     def __init__(self):
         self.arrays = {}  # None: a mesh without polygons
         self.owners = {}
+        self.traits = {}
 
     def forget_changed(self, depsgraph):
         """Takes away the meshes of all objects that Blender names as changed. Addresses alone would not do: a new mesh
         may lie where an old one did."""
         changed = {update.id.name for update in depsgraph.updates if update.is_updated_geometry}
         for address in [a for a, names in self.owners.items() if names & changed]:
-            del self.arrays[address], self.owners[address]
+            del self.arrays[address], self.owners[address], self.traits[address]
 
 
 class LiveGatherer(Gatherer):
@@ -40,6 +53,7 @@ class LiveGatherer(Gatherer):
         kept = self.kept
         kept.arrays = {address: kept.arrays[address] for address in self.owners}
         kept.owners = self.owners
+        kept.traits = {address: kept.traits[address] for address in self.owners}
         return result
 
     def placed(self, thing, base):
@@ -53,6 +67,11 @@ class LiveGatherer(Gatherer):
     def mesh_of(self, thing):
         address = thing.data.as_pointer()
         self.owners.setdefault(address, set()).update(self.names)
+        if address not in self.mesh_numbers:
+            traits = traits_of(thing.data)
+            if self.kept.traits.get(address) != traits:
+                self.kept.arrays.pop(address, None)
+            self.kept.traits[address] = traits
         if address not in self.mesh_numbers and address in self.kept.arrays:
             arrays = self.kept.arrays[address]
             self.mesh_numbers[address] = None if arrays is None else len(self.result.meshes)
