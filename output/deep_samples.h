@@ -51,6 +51,10 @@ class DeepSampler {
     void find_parts(const Mattes::DeepPixel& pixel);
     glm::dvec4 beauty() const;
     void lay_in_turns();
+    /// Fills line_alphas_ so that classes have what the film has, as far as half precision allows.
+    void find_line_alphas();
+    /// The same with so much more for the nearest line. Gives how far the sum of a class is off, at most.
+    double find_line_alphas(double more);
     void lay_lines_first();
     void add_hidden(const Mattes::DeepPixel& pixel);
     DeepSample& add_sample(const Part& part, double alpha, const glm::dvec3& color);
@@ -60,8 +64,9 @@ class DeepSampler {
     bool is_float_, is_orthographic_;
     double nearest_ = 0;  // of an orthographic view: the scene's nearest point
     Names classes_, materials_, objects_;
-    std::vector<Part> parts_;  // of a pixel, nearest first
-    double left_ = 1;          // of surfaces, by lines
+    std::vector<Part> parts_;          // of a pixel, nearest first
+    std::vector<double> line_alphas_;  // of the lines among them that are seen, as they were rounded
+    double left_ = 1;                  // of surfaces, by lines
     bool has_line_behind_ = false;
     bool is_mean_ = false;
     std::vector<DeepSample> samples_;

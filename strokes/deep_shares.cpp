@@ -10,6 +10,8 @@
 namespace burin {
 namespace {
 
+/// Less is nothing: what sums of a filter's weights leave.
+constexpr float kLeastShare = 1.0f / (1 << 21);
 constexpr double kExactOfOne = static_cast<double>(std::int64_t{1} << 40);
 
 std::int64_t exact_of(float value) {
@@ -111,8 +113,7 @@ void DeepShares::finish_pixel(Pixel& pixel, MattePlace place, bool is_filtered, 
         for (std::size_t i = 0; i < kinds.size(); ++i) {
             const Kind& k = kinds[i];
             DeepLine line{shares_[i], k.place.is_behind, k.invisibility, k.place.distance, {}, {}, {}};
-            line.line.share = in_share_steps(line.line.share, true);
-            if (!(line.line.share > 0) || k.sums[0] <= 0) continue;
+            if (!(line.line.share > kLeastShare) || k.sums[0] <= 0) continue;
             const auto per_share = [&](std::size_t first) {
                 glm::vec3 value;
                 for (int c = 0; c < 3; ++c) {

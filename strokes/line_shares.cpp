@@ -41,8 +41,8 @@ void bring_into_range(std::vector<LineShare>& lines, float opaque, bool is_filte
     }
 }
 
-float in_share_steps(float share, bool is_fine) {
-    const float steps = is_fine ? 1 << 20 : 1 << 14;
+float in_share_steps(float share) {
+    constexpr float steps = 1 << 14;
     return std::round(share * steps) / steps;
 }
 

@@ -11,8 +11,7 @@ namespace burin {
 /// filter's negative lobes take away is cut off.
 void bring_into_range(std::vector<LineShare>& lines, float opaque, bool is_filtered);
 
-/// A share in steps that do not show how crops round. `is_fine`: for numbers that are compared with channels of half
-/// precision.
-float in_share_steps(float share, bool is_fine = false);
+/// A share in steps that do not show how crops round.
+float in_share_steps(float share);
 
 }  // namespace burin
