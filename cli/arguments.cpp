@@ -56,6 +56,15 @@ void add_thread_options(CLI::App& app, Texts& t) {
     app.add_flag("-q", t.quiet, "say nothing but errors");
 }
 
+/// `what`: whose values may be overridden.
+void add_set_option(CLI::App& app, Texts& t, const std::string& what) {
+    app.add_option("--set", t.sets,
+                   "override a value of " + what + ", style.PARAMETER=VALUE or style.STYLE.KEY=VALUE; may be repeated")
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false);
+}
+
 void add_strict_option(CLI::App& app, Texts& t) {
     app.add_flag("--strict", t.strict, "refuse a model of which a part would be left out with a note");
 }
@@ -100,12 +109,7 @@ void add_scene_options(CLI::App& app, Texts& t) {
                    "style sheet that says which lines are drawn and how: a name (see burin styles), or a file .toml");
     app.add_option("--frame", t.frame, "number of the frame, for `frame` and `time` in style sheets (default 0)");
     app.add_option("--dpi", t.page.dpi, "pixels per inch, for lengths in mm and pt in style sheets (default 96)");
-    app.add_option("--set", t.sets,
-                   "override a value of the scene, KEY=VALUE, or of the style sheet, style.PARAMETER=VALUE or "
-                   "style.STYLE.KEY=VALUE; may be repeated")
-        ->expected(1)
-        ->take_all()
-        ->allow_extra_args(false);
+    add_set_option(app, t, "the scene, KEY=VALUE, or of the style sheet");
     add_thread_options(app, t);
     add_strict_option(app, t);
 }
@@ -176,12 +180,7 @@ void add_restyle_options(CLI::App& app, Texts& t) {
     app.add_option("--style", t.style, "style sheet: a name (see burin styles), or a file .toml")->required();
     app.add_option("-w,--line-width", t.width, "the sheet's parameter `width`");
     app.add_option("--color", t.color, "the sheet's parameter `color`");
-    app.add_option(
-           "--set", t.sets,
-           "override a value of the style sheet, style.PARAMETER=VALUE or style.STYLE.KEY=VALUE; may be repeated")
-        ->expected(1)
-        ->take_all()
-        ->allow_extra_args(false);
+    add_set_option(app, t, "the style sheet");
     app.add_option("--layers", t.layers, "layers of an EXR: beauty lines coverage surface lines_hidden");
     app.add_option("--crop", t.crop, "draw only these pixels, X0,Y0,X1,Y1, half open");
     app.add_option("--page", t.page.page, "kind of vector file: patent, plotter or laser; the paper is that of INPUT");
@@ -208,12 +207,7 @@ void add_view_options(CLI::App& app, Texts& t) {
     app.add_option("--port", t.port, "port of 127.0.0.1, 1 to 65535 (default: a free one)");
     app.add_flag("--no-browser", t.no_browser, "print the address of the page, and open no browser");
     app.add_option("--style", t.style, "style sheet to begin with: a name (see burin styles), or a file .toml");
-    app.add_option("--set", t.sets,
-                   "override a value of the scene, KEY=VALUE, or of the style sheet, style.PARAMETER=VALUE or "
-                   "style.STYLE.KEY=VALUE; may be repeated")
-        ->expected(1)
-        ->take_all()
-        ->allow_extra_args(false);
+    add_set_option(app, t, "the scene, KEY=VALUE, or of the style sheet");
     app.add_option("-j,--threads", t.threads, "number of threads, 0 = all cores (default)");
     app.add_flag("-q", t.quiet, "say nothing but errors");
     app.footer("Prints the address of the page on standard output. Only this machine, and who knows it, can look.");

@@ -11,7 +11,7 @@ set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/burin)
 install(TARGETS burin_program RUNTIME)
 install(TARGETS burin EXPORT burinTargets LIBRARY)
 install(TARGETS burin_oiio burin_draco LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/burin)
-install(FILES burin/burin.h burin/burin.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/burin)
+install(FILES burin/burin.h burin/burin.hpp burin/error.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/burin)
 
 install(EXPORT burinTargets NAMESPACE burin:: FILE burinTargets.cmake DESTINATION ${package_folder})
 configure_package_config_file(cmake/burinConfig.cmake.in ${PROJECT_BINARY_DIR}/burinConfig.cmake

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <new>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -11,6 +10,7 @@
 #include "base/lower_extension.h"
 #include "base/module.h"
 #include "image/half.h"
+#include "image/naming_file.h"
 #include "image/oiio_module.h"
 #include "image/png_writer.h"
 
@@ -93,17 +93,7 @@ DisplayFormat format_of(const std::string& name, const std::string& extension) {
 }
 
 void write_by_libpng(ByteSink& file, const std::string& name, const DisplayImage& image, int bits) {
-    try {
-        write_png(file, image, bits);
-    } catch (const InputError&) {
-        throw;
-    } catch (const Interrupted&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& error) {
-        throw InputError(name + ": cannot write: " + one_line(error.what()));
-    }
+    naming_file(name, [&] { write_png(file, image, bits); });
 }
 
 void write_by_module(ByteSink& file, const std::string& name, const std::string& extension, const DisplayImage& image,

@@ -92,7 +92,7 @@ def on_files(files, config):
         files.append(File(page, made, config["site_dir"], config["use_directory_urls"]))
 
     waiting = ["docs/" + f.src_path for f in files if f.src_path.endswith(".md")]
-    add("api.md", api_reference.page(text_of("burin/burin.h"), text_of("burin/burin.hpp")))
+    add("api.md", api_reference.page(text_of("burin/burin.h"), text_of("burin/error.hpp") + text_of("burin/burin.hpp")))
     add("decisions/index.md", index_of_decisions(files))
     copied = set()
     while waiting:

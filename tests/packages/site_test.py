@@ -82,7 +82,7 @@ def check_reference(page: Page, html: str) -> int:
         after = after[after.index("</pre>"):]
         end = after.find("<h")
         expect(len(re.sub(r"<[^>]*>", "", after[:end])) > 15, f"api.html says nothing of {name}")
-    classes = re.findall(r"^(?:class|struct) (\w+)", read(SOURCE, "burin", "burin.hpp"), re.M)
+    classes = re.findall(r"^(?:class|struct) (\w+)", read(SOURCE, "burin", "error.hpp") + read(SOURCE, "burin", "burin.hpp"), re.M)
     expect(len(classes) > 8, "burin.hpp declares too little")
     for name in classes:
         expect(f"burin::{name}" in page.ids, f"api.html has no burin::{name}")
