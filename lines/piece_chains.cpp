@@ -1,6 +1,7 @@
 #include "lines/piece_chains.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
 

@@ -1,5 +1,6 @@
 #include "mesh/ply_attributes.h"
 
+#include <algorithm>
 #include <iterator>
 #include <span>
 #include <utility>
