@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 
 const fs::path kSourceFolder = BURIN_SOURCE_FOLDER;
 const std::vector<std::string> kProductFolders = {"base",    "image",   "mesh",   "kernels", "view",    "lines",
-                                           "shading", "scene",   "render", "abuffer", "strokes", "output",
-                                           "methods", "compare", "web",    "cli",     "burin"};
+                                                  "shading", "scene",   "render", "abuffer", "strokes", "output",
+                                                  "methods", "compare", "web",    "cli",     "burin"};
 
 // Which header brings which names of the standard library: those that are used often and that other headers do not
 // always bring.
