@@ -131,6 +131,66 @@ bool read_coordinate(LineScanner& scan, double& value) {
     return true;
 }
 
+// Most files have one statement a line; some have the whole file on one line. What stands between two statements of a
+// line, like the normal of a facet, is passed over.
+
+bool is_keyword(std::string_view word) {
+    constexpr std::array<std::string_view, 8> kKeywords = {"facet",   "outer",    "vertex",   "end",
+                                                           "endloop", "endfacet", "endsolid", "solid"};
+    if (word.empty() || std::string_view("fovesFOVES").find(word[0]) == std::string_view::npos) return false;
+    return std::find(kKeywords.begin(), kKeywords.end(), lower_case(word)) != kKeywords.end();
+}
+
+/// Goes on to the next keyword of the line; false at the line's end.
+bool find_keyword(LineScanner& scan) {
+    LineScanner ahead = scan;
+    for (std::string_view word = ahead.word(); !word.empty(); word = ahead.word()) {
+        if (is_keyword(word)) return true;
+        scan = ahead;
+    }
+    return false;
+}
+
+/// Goes on to the words 'facet normal', which no name of a solid has, or to the word 'endsolid'; false where the line
+/// has neither.
+bool find_end_of_name(LineScanner& scan) {
+    LineScanner ahead = scan;
+    for (std::string_view word = ahead.word(); !word.empty(); word = ahead.word()) {
+        if (is_keyword(word)) {
+            LineScanner next = ahead;
+            const std::string keyword = lower_case(word);
+            if (keyword == "endsolid" || (keyword == "facet" && lower_case(next.word()) == "normal")) return true;
+        }
+        scan = ahead;
+    }
+    return false;
+}
+
+/// The name behind the word 'solid', which ends with the line unless the solid goes on there.
+std::string_view scan_name(LineScanner& scan) {
+    const std::string_view line = scan.rest();
+    find_end_of_name(scan);
+    std::string_view name = line.substr(0, line.size() - scan.rest().size());
+    while (!name.empty() && is_blank(name.back())) name.remove_suffix(1);
+    return name;
+}
+
+/// Passes over the name behind the word 'endsolid', which ends with the line unless another solid stands there.
+void skip_end_name(LineScanner& scan) {
+    LineScanner name_end = scan;
+    if (!find_end_of_name(name_end)) {
+        scan = name_end;
+        return;
+    }
+    // The name may have the word 'solid' as well: the last one begins the solid.
+    LineScanner begin = name_end;
+    for (LineScanner ahead = scan; ahead.rest().size() > name_end.rest().size();) {
+        const LineScanner at = ahead;
+        if (lower_case(ahead.word()) == "solid") begin = at;
+    }
+    scan = begin;
+}
+
 class AsciiParser {
   public:
     AsciiParser(const std::string& path, std::string_view text, bool strict)
@@ -139,27 +199,11 @@ class AsciiParser {
     PolygonSoup parse() {
         std::string_view line;
         while (lines_.next(line)) {
-            if ((lines_.line_number() & 0xFFFF) == 0) throw_if_interrupted();
             LineScanner scan(line);
-            std::string keyword = lower_case(scan.word());
-            if (keyword == "end") keyword += lower_case(scan.word());  // some write "end loop"
-            if (keyword == "vertex") {
-                add_vertex(scan);
-            } else if (keyword == "endloop") {
-                end_loop();
-            } else if (keyword == "facet" || keyword == "endfacet" || keyword == "outer") {
-                check_loop_is_closed();
-                if (keyword == "facet" && soup_.object_names.empty()) begin_without_solid();
-                if (keyword != "outer") in_facet_ = keyword == "facet";
-            } else if (keyword == "solid") {
-                check_loop_is_closed();
-                begin_solid(std::string(scan.rest()));
-            } else if (keyword == "endsolid") {
-                check_loop_is_closed();
-                in_solid_ = false;
-            } else if (!keyword.empty() && keyword != "color") {
-                fail("unknown word '" + printable(keyword) + "'" + kRepair);
-            }
+            do {
+                if ((++statements_ & 0xFFFF) == 0) throw_if_interrupted();
+                read_statement(scan);
+            } while (find_keyword(scan));
         }
         if (in_solid_ && (in_facet_ || in_loop_ || !lacks_solid_)) {
             fail(std::string("the file ends in the middle of a ") + (lacks_solid_ ? "facet" : "solid") +
@@ -170,6 +214,29 @@ class AsciiParser {
     }
 
   private:
+    void read_statement(LineScanner& scan) {
+        std::string keyword = lower_case(scan.word());
+        if (keyword == "end") keyword += lower_case(scan.word());  // some write "end loop"
+        if (keyword == "vertex") {
+            add_vertex(scan);
+        } else if (keyword == "endloop") {
+            end_loop();
+        } else if (keyword == "facet" || keyword == "endfacet" || keyword == "outer") {
+            check_loop_is_closed();
+            if (keyword == "facet" && soup_.object_names.empty()) begin_without_solid();
+            if (keyword != "outer") in_facet_ = keyword == "facet";
+        } else if (keyword == "solid") {
+            check_loop_is_closed();
+            begin_solid(std::string(scan_name(scan)));
+        } else if (keyword == "endsolid") {
+            check_loop_is_closed();
+            in_solid_ = false;
+            skip_end_name(scan);
+        } else if (!keyword.empty() && keyword != "color") {
+            fail("unknown word '" + printable(keyword) + "'" + kRepair);
+        }
+    }
+
     [[noreturn]] void fail(const std::string& message) const {
         throw InputError({path_, lines_.line_number()}, message);
     }
@@ -235,6 +302,7 @@ class AsciiParser {
     bool lacks_solid_ = false;  // the solid that is being read
     bool in_facet_ = false;
     bool in_loop_ = false;
+    std::uint64_t statements_ = 0;
     bool is_finite_ = true;  // the loop so far
     std::size_t first_non_finite_line_ = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -105,6 +106,28 @@ TEST_F(StlVariants, KeywordsMayBeSpeltInManyWays) {
         EXPECT_EQ(soup.object_names, (std::vector<std::string>{"a Name", "b"})) << variant;
         EXPECT_EQ(soup.polygon_object, (std::vector<std::uint32_t>{0, 0, 1})) << variant;
     }
+    // Statements may share a line: all of the file, a facet a line, or as the words happen to be broken.
+    std::string one_line = text;
+    std::replace(one_line.begin(), one_line.end(), '\n', ' ');
+    for (const std::string& variant :
+         {one_line, one_line + "\n",
+          with({{"\nouter loop\n", " outer loop "}, {"\nvertex", " vertex"}, {"\nend", " end"}}),
+          with({{"endfacet\n", "endfacet "}}), with({{"\nfacet", " facet"}, {"\nendsolid", " ENDSOLID"}}),
+          with({{"endsolid a Name\nsolid b\n", "endsolid a solid Name solid b "}}),
+          with({{"endsolid a Name\nsolid b\n", "endsolid solid b "}})}) {
+        const PolygonSoup soup = read(variant);
+        EXPECT_EQ(soup.positions, expected.positions) << variant;
+        EXPECT_EQ(polygons_of(soup), polygons_of(expected)) << variant;
+        EXPECT_EQ(soup.object_names, (std::vector<std::string>{"a Name", "b"})) << variant;
+        EXPECT_EQ(soup.polygon_object, (std::vector<std::uint32_t>{0, 0, 1})) << variant;
+    }
+    EXPECT_EQ(read("solid the outer facet end\n" + facet("1 1 0") + "endsolid the solid of facet end\n").object_names,
+              (std::vector<std::string>{"the outer facet end"}));
+    EXPECT_TRUE(read("solid none endsolid none solid a " + facet("1 1 0") + "endsolid\n").notes.empty());
+    EXPECT_TRUE(refuses("solid a facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 1 1 endloop",
+                        {":1: a vertex needs three numbers"}));
+    EXPECT_TRUE(
+        refuses("solid a facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0", {"in the middle of a solid"}));
     EXPECT_TRUE(refuses("solid a\n" + facet("1 1 0") + "end\n", {":9: unknown word 'end'"}));
     EXPECT_TRUE(refuses("solid a\n" + facet("1 1 0") + "end of it\n", {":9: unknown word 'endof'"}));
 }
