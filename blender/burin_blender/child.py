@@ -70,41 +70,74 @@ def run_child(parent, writer, work, memory):
         os._exit(status)
 
 
-def end_of(pid):
-    """Waits for a child that has ended or is about to. Gives its wait status."""
-    return os.waitpid(pid, 0)[1]
+def name_of_signal(number):
+    """Real-time signals have no names."""
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}"
+
+
+def wait_status(pid, options=0):
+    """The wait status of a child that has ended, or, without WNOHANG, is about to; None: it has not. Who else has
+    waited for it has taken its status, which is 0 then."""
+    try:
+        ended, status = os.waitpid(pid, options)
+    except ChildProcessError:
+        return 0
+    return status if ended == pid else None
+
+
+def fork(work, memory):
+    """Begins a child. Gives its number and the descriptor from which its result is read."""
+    reader, writer = os.pipe()
+    try:
+        parent = os.getpid()
+        pid = os.fork()
+        if pid == 0:
+            os.close(reader)
+            run_child(parent, writer, work, memory)
+    except OSError:  # there can be no other process
+        os.close(reader)
+        raise
+    finally:
+        os.close(writer)
+    return pid, reader
 
 
 def work_in_child(work, memory, is_cancelled, show_progress):
     """Calls work(memory) in a child, and gives its result, which must be one that JSON has. Throws Cancelled, once
     is_cancelled() is true, and ChildError."""
-    reader, writer = os.pipe()
-    parent = os.getpid()
-    pid = os.fork()
-    if pid == 0:
-        run_child(parent, writer, work, memory)
-    os.close(writer)
-    is_over = False
+    pid, reader = fork(work, memory)
+    data, status, is_over = b"", None, False
     try:
-        data = b""
         while True:
             if is_cancelled():
                 raise Cancelled()
-            if not select.select([reader], [], [], WAIT_S)[0]:
-                show_progress(memory.progress())
-                continue
-            part = os.read(reader, 65536)
-            if not part:
+            if select.select([reader], [], [], WAIT_S)[0]:
+                part = os.read(reader, 65536)
+                if not part:
+                    break
+                data += part
+            elif status is not None:  # all is read; another process may still have the other end of the pipe
                 break
-            data += part
+            else:
+                show_progress(memory.progress())
+                status = wait_status(pid, os.WNOHANG)
         is_over = True
     finally:
         os.close(reader)
-        if not is_over:
-            os.kill(pid, signal.SIGKILL)
-        status = end_of(pid)
+        if status is None:
+            if not is_over:
+                os.kill(pid, signal.SIGKILL)
+            status = wait_status(pid)
+    return result_of(data, status)
+
+
+def result_of(data, status):
+    """What a child has made, by what it wrote and its wait status."""
     if os.WIFSIGNALED(status):
-        name = signal.Signals(os.WTERMSIG(status)).name
+        name = name_of_signal(os.WTERMSIG(status))
         why = "there may be too little memory" if name == "SIGKILL" else "please report this"
         raise ChildError(f"the renderer was ended by {name}; {why}")
     if not data:

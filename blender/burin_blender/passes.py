@@ -78,7 +78,7 @@ def channels_of(wanted):
 
 
 def type_of(channel):
-    """What the library's values of a channel are; `index` is made from ids, by DrawnScene."""
+    """What the library's values of a channel are; `index` is made from ids, by Job.draw()."""
     if channel.startswith("id."):
         return np.dtype(np.uint32)
     is_float = channel == "Z" or channel.startswith(("index.", "Crypto"))
