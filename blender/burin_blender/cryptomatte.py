@@ -26,6 +26,20 @@ def share_of(names, ranks, channel):
     return share
 
 
+def rename(channels, kind, names):
+    """Gives objects or materials in the channels of the passes `kind` other names: {name: the other one}."""
+    if not names:
+        return
+    hashes = {crypto_hash(name): crypto_hash(other) for name, other in names.items()}
+    old = np.array(sorted(hashes), np.uint32)
+    new = np.array([hashes[number] for number in sorted(hashes)], np.uint32)
+    for channel, values in channels.items():
+        if channel.startswith(kind) and channel[-1] in "RB":  # names, beside which shares are
+            bits = values.view(np.uint32)
+            places = np.minimum(np.searchsorted(old, bits), len(old) - 1)
+            np.copyto(bits, new[places], where=old[places] == bits)
+
+
 def crypto_hash(name):
     """MurmurHash3 (x86, 32 bits, seed 0) of a name, changed in one bit where it would be no ordinary float."""
     data = name.encode("utf-8", "replace")

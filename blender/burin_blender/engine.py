@@ -5,7 +5,7 @@ import re
 import bpy
 import numpy as np
 
-from . import camera, core, line_sets, viewport
+from . import camera, clip_range, core, line_sets, viewport
 from .child import Cancelled, ChildError, work_in_child
 from .cryptomatte import ranks_of
 from .gather import gather
@@ -13,8 +13,15 @@ from .job import Job
 from .passes import missing_passes, passes_of
 from .properties import samples_of, settings_lines
 from .result import give_to_blender
+from .shown import NOTHING_SHOWN
 
-_told = set()  # what was reported already: an animation says each thing once
+_told = set()  # what was reported already: a job, of a frame or an animation, says each thing once
+
+
+@bpy.app.handlers.persistent
+def begin_job(*_):
+    """Blender begins to render a frame or an animation."""
+    _told.clear()
 
 
 def size_of(render):
@@ -49,8 +56,9 @@ def unsupported(scene, camera_object):
     return notes
 
 
-def draws_marks(sheet, lines):
-    """Whether marked edges may be lines. Of a sheet that is only named it is not known."""
+def draws_marks(scene, view_layer):
+    """Whether marked edges may be lines, whatever is shown. Of a sheet that is only named it is not known."""
+    sheet, lines = line_sets.sheet_text(scene, view_layer, NOTHING_SHOWN), settings_lines(scene, NOTHING_SHOWN)
     if sheet is not None:
         return "mark" in sheet or "\n" not in sheet
     return any(line.startswith("lines.draw=") and ("mark" in line or "all" in line) for line in lines)
@@ -99,7 +107,8 @@ class BurinEngine(bpy.types.RenderEngine):
 
     def job_of(self, depsgraph):
         """What is to be drawn. Reports what was not understood."""
-        scene, view_layer = depsgraph.scene, depsgraph.view_layer
+        # Blender evaluates line styles and materials for the copies of a render alone.
+        scene, view_layer = depsgraph.scene_eval, depsgraph.view_layer_eval
         camera_object = self.camera_override or scene.camera
         if camera_object is None:
             raise core.BurinError("the scene has no camera")
@@ -111,11 +120,14 @@ class BurinEngine(bpy.types.RenderEngine):
         view["frame"] = scene.frame_current
         settings = scene.burin
         view["samples"] = samples_of(settings.samples)
-        sheet, lines = line_sets.sheet_text(scene, view_layer), settings_lines(scene, view_layer)
-        gathered = gather(depsgraph, draws_marks(sheet, lines))
+        gathered = gather(depsgraph, draws_marks(scene, view_layer))
+        camera_data = camera_object.evaluated_get(depsgraph).data
+        clip_range.leave_out(gathered, view, camera_data.clip_start, camera_data.clip_end)
+        shown = gathered.shown
         self.tell("WARNING", gathered.notes | missing_passes(view_layer) | unsupported(scene, camera_object))
-        self.tell("WARNING", line_sets.not_drawn(scene, view_layer))
-        job = Job(gathered, view, passes_of(view_layer), sheet, lines)
+        self.tell("WARNING", line_sets.not_drawn(scene, view_layer, shown))
+        job = Job(gathered, view, passes_of(view_layer), line_sets.sheet_text(scene, view_layer, shown),
+                  settings_lines(scene, shown))
         job.crypto_ranks = ranks_of(view_layer)
         job.threads = scene.render.threads if scene.render.threads_mode == "FIXED" else settings.threads
         job.memory_bytes = settings.memory_mb * 1000000
@@ -124,7 +136,7 @@ class BurinEngine(bpy.types.RenderEngine):
         return job
 
     def tell(self, kind, notes):
-        """Reports each note once as long as Blender runs."""
+        """Reports each note once in a job."""
         for note in sorted(set(notes) - _told):
             _told.add(note)
             self.report({kind}, f"Burin: {note}")
@@ -144,7 +156,9 @@ class BurinEngine(bpy.types.RenderEngine):
 
 def register():
     bpy.utils.register_class(BurinEngine)
+    bpy.app.handlers.render_init.append(begin_job)
 
 
 def unregister():
+    bpy.app.handlers.render_init.remove(begin_job)
     bpy.utils.unregister_class(BurinEngine)

@@ -52,7 +52,7 @@ class NotCarried(Exception):
 class StyleValues:
     """Colour, alpha and thickness of one line style, as expressions.
 
-    `place`: how far along its stroke a place is, 0 to 1. `materials`: those of the scene."""
+    `place`: how far along its stroke a place is, 0 to 1. `materials`: those that are shown."""
 
     def __init__(self, sheet, line_style, place, materials):
         self.sheet, self.style, self.place, self.materials = sheet, line_style, place, materials

@@ -32,8 +32,8 @@ MOST_SETS = 64  # a sheet has no room for more styles
 class FreestyleSheet:
     """The sheet of one view layer, and what of its line sets is not in it."""
 
-    def __init__(self, scene, view_layer):
-        self.scene, self.settings = scene, view_layer.freestyle_settings
+    def __init__(self, scene, view_layer, shown):
+        self.scene, self.settings, self.shown = scene, view_layer.freestyle_settings, shown
         self.notes = []
         self.classes = set()
         self.sets = []  # (line set, condition)
@@ -43,7 +43,7 @@ class FreestyleSheet:
                     self.select(line_set)
         if len(self.sets) > MOST_SETS:
             raise BurinError(f"view layer {view_layer.name} has {len(self.sets)} line sets; {MOST_SETS} can be drawn")
-        self.rules = ObjectRules(scene)
+        self.rules = ObjectRules(shown)
         # Freestyle's angle is between faces, Burin's between their normals.
         self.crease_degrees = round(180 - math.degrees(self.settings.crease_angle), 4)
         top = [f"crease_angle = {self.rules.crease_angle(self.crease_degrees)!r}"]
@@ -116,18 +116,18 @@ class FreestyleSheet:
     def collection_condition(self, line_set):
         if not line_set.select_by_collection or line_set.collection is None:
             return ""
-        names = [thing.name for thing in objects_of(line_set.collection)]
+        names = self.shown.names_in(objects_of(line_set.collection))
         is_negated = line_set.collection_negation == "EXCLUSIVE"
-        if not names:
-            return ""
-        group = self.sheet.group("objects", dict.fromkeys(names))
+        if not names:  # the numbers of objects begin with 1
+            return "" if is_negated else "object == 0"
+        group = self.sheet.group("objects", names)
         return f"not (object in {group})" if is_negated else f"object in {group}"
 
     def style(self, line_set, number):
         """The keys of a line style."""
         line_style = line_set.linestyle
         place = "(run_s / max(run_length, 0.001))" if line_set.select_by_visibility else "t"
-        values = StyleValues(self.sheet, line_style, place, self.scene_materials())
+        values = StyleValues(self.sheet, line_style, place, list(self.shown.materials.values()))
         for what in values.notes + not_carried(line_style):
             self.note(line_set, what)
         width = self.sheet.let(f"{values.thickness} * {number_text(thickness_unit(self.scene))}")
@@ -144,14 +144,6 @@ class FreestyleSheet:
         if line_style.use_length_min:
             entries.append(f"min_length = {float(line_style.length_min)!r}")
         return entries
-
-    def scene_materials(self):
-        found = {}
-        for thing in self.scene.objects:
-            for slot in thing.material_slots:
-                if slot.material is not None:
-                    found[slot.material.name] = slot.material
-        return list(found.values())
 
 
 def objects_of(collection):

@@ -140,7 +140,8 @@ class LiveView:
         """Settings and style sheet, or why there are none."""
         begin = time.monotonic()
         try:
-            return properties.settings_lines(scene, view_layer), line_sets.sheet_text(scene, view_layer)
+            shown = self.gathered.shown
+            return properties.settings_lines(scene, shown), line_sets.sheet_text(scene, view_layer, shown)
         except core.BurinError as error:
             return str(error)
         finally:

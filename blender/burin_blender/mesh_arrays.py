@@ -28,10 +28,18 @@ class MeshArrays:
         if self.slots is not None and (self.slots == self.slots[0]).all():
             self.slot, self.slots = int(self.slots[0]), None
         self.marks = marked_edges(mesh) if with_marks else None
-        self._key = None
+        self._key = self._box = None
 
     def is_empty(self):
         return len(self.corners) == 0 and self.marks is None
+
+    def box(self):
+        """The middle and the half size of the box around all points, and whether it is finite."""
+        if self._box is None:
+            points = self.points.reshape(-1, 3).astype(float)
+            low, high = points.min(axis=0), points.max(axis=0)
+            self._box = ((low + high) / 2, (high - low) / 2, bool(np.isfinite([low, high]).all()))
+        return self._box
 
     def key(self):
         """Equal for equal meshes: their sizes and a checksum of all numbers."""

@@ -1,30 +1,15 @@
 """What objects say about their lines, with Line Art's settings: who only hides, who has no intersections, and whose
 creases begin at another angle."""
 
-import math
-
-from .line_art import Usages
-
 
 class ObjectRules:
-    """Conditions for line sets that follow from the settings of the objects of a scene."""
+    """Conditions for line sets that follow from the settings of the objects that are shown."""
 
-    def __init__(self, scene):
-        self.silent, self.without_intersections, self.only_intersections = [], [], []
-        self.crease_angles = {}  # degrees: names
-        usages = Usages(scene)
-        for thing in scene.objects:
-            usage = usages.of(thing)
-            if usage == "OCCLUSION_ONLY":
-                self.silent.append(thing.name)
-            elif usage == "NO_INTERSECTION":
-                self.without_intersections.append(thing.name)
-            elif usage == "INTERSECTION_ONLY":
-                self.only_intersections.append(thing.name)
-            settings = getattr(thing, "lineart", None)
-            if settings is not None and settings.use_crease_override:
-                degrees = round(180 - math.degrees(settings.crease_threshold), 4)
-                self.crease_angles.setdefault(min(max(degrees, 0), 180), []).append(thing.name)
+    def __init__(self, shown):
+        self.silent = shown.usages.get("OCCLUSION_ONLY", [])
+        self.without_intersections = shown.usages.get("NO_INTERSECTION", [])
+        self.only_intersections = shown.usages.get("INTERSECTION_ONLY", [])
+        self.crease_angles = shown.crease_angles  # degrees: names
 
     def __bool__(self):
         return bool(self.silent or self.without_intersections or self.only_intersections or self.crease_angles)

@@ -48,22 +48,20 @@ def look_lines(settings):
     ]
 
 
-def colored_materials(scene):
+def colored_materials(shown):
     """Names of materials whose lines have a colour of their own, by that colour."""
     found = {}
-    for thing in scene.objects:
-        for slot in thing.material_slots:
-            material = slot.material
-            if material is not None and material.burin.use_line_color:
-                found.setdefault(tuple(material.burin.line_color), {})[material.name] = True
+    for material in shown.materials.values():
+        if material.own_color is not None:
+            found.setdefault(material.own_color, []).append(material.name)
     return found
 
 
-def sheet_text(scene):
+def sheet_text(scene, shown):
     """A sheet with the look of the panels, or None if plain settings can say it."""
     settings = scene.burin
     classes = line_classes(settings)
-    rules, colors = ObjectRules(scene), colored_materials(scene)
+    rules, colors = ObjectRules(shown), colored_materials(shown)
     if not classes or not (rules or colors):
         return None
     if len(colors) > MOST_COLORS:

@@ -5,6 +5,7 @@ import textwrap
 import bpy
 
 from . import blender_panels, freestyle_panels, line_sets, operators, sheets
+from .shown import NOTHING_SHOWN
 
 LONGEST_LINE = 48
 
@@ -67,7 +68,7 @@ class BURIN_PT_lines(BurinPanel, bpy.types.Panel):
         column.row().prop(render, "line_thickness_mode", expand=True, text="Thickness")
         if render.line_thickness_mode == "ABSOLUTE":
             column.prop(render, "line_thickness")
-        for note in line_sets.not_drawn(context.scene, context.view_layer):
+        for note in line_sets.not_drawn(context.scene, context.view_layer, NOTHING_SHOWN):
             warning(column, note, "INFO")
 
     def draw_sheet(self, column, sheet):

@@ -37,8 +37,14 @@ SAMPLES = (
 )
 
 
-def color_property(name, value, description):
-    return FloatVectorProperty(name=name, subtype="COLOR", size=3, min=0, max=1, default=value, description=description)
+def color_property(name, value, description, **options):
+    return FloatVectorProperty(name=name, subtype="COLOR", size=3, min=0, max=1, default=value, description=description,
+                               **options)
+
+
+def material_changed(settings, context):
+    """Has Blender evaluate the material again, also where a script has changed it."""
+    settings.id_data.update_tag()
 
 
 class BurinSceneSettings(bpy.types.PropertyGroup):
@@ -112,9 +118,10 @@ class BurinViewLayerSettings(bpy.types.PropertyGroup):
 class BurinMaterialSettings(bpy.types.PropertyGroup):
     """material.burin"""
 
-    use_line_color: BoolProperty(name="Line Color", default=False,
+    use_line_color: BoolProperty(name="Line Color", default=False, update=material_changed,
                                  description="Lines on surfaces of this material have a colour of their own")
-    line_color: color_property("Line Color", (0, 0, 0), "Of lines on surfaces of this material")
+    line_color: color_property("Line Color", (0, 0, 0), "Of lines on surfaces of this material",
+                               update=material_changed)
 
 
 def samples_of(choice):
@@ -133,8 +140,9 @@ def surface_lines(settings):
     return lines
 
 
-def settings_lines(scene, view_layer):
-    """All settings, each as burin_set() takes it: beside a style sheet its parameters, else the look of lines."""
+def settings_lines(scene, shown):
+    """All settings, each as burin_set() takes it: beside a style sheet its parameters, else the look of lines.
+    `shown`: what gather() has found."""
     settings = scene.burin
     found = [f"lines.filter={settings.filter.lower()}", f"lines.contours={settings.contours.lower()}",
              f"lines.crease_angle={panel_look.crease_angle_text(*panel_look.crease_degrees(settings))}",
@@ -143,7 +151,7 @@ def settings_lines(scene, view_layer):
         return found
     if settings.sheet.source != "NONE":
         return found + sheets.parameter_lines(settings.sheet)
-    if panel_look.sheet_text(scene) is not None:
+    if panel_look.sheet_text(scene, shown) is not None:
         return found
     return found + panel_look.look_lines(settings)
 

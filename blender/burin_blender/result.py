@@ -33,6 +33,8 @@ def give_to_blender(engine, job, memory, layer):
     """Makes what a child has drawn the render's result."""
     channels = job.arrays(memory)
     left = not_held_out(job, channels)
+    cryptomatte.rename(channels, "CryptoObject", job.gathered.shown.object_names.own)
+    cryptomatte.rename(channels, "CryptoMaterial", job.gathered.shown.material_names.own)
     passes = {wanted.name: wanted for wanted in job.passes}
     buffer = large_buffer(4 * job.width * job.height)
     result = engine.begin_result(0, 0, job.width, job.height, layer=layer)

@@ -12,15 +12,6 @@ def list_text(texts):
     return "[" + ", ".join(quoted(text) for text in texts) + "]"
 
 
-def pattern(name):
-    """A pattern that fits a name. What means something in patterns and texts of expressions is left open, by `?`."""
-    special = {"*", '"', "\\"}
-    letters = ["?" if letter in special or ord(letter) < 32 else letter for letter in name]
-    if letters and letters[0] == "!":
-        letters[0] = "?"
-    return "".join(letters)
-
-
 def number_text(number):
     """A number as expressions take it: decimal, a negative one in brackets."""
     text = repr(round(float(number), 6))
@@ -53,9 +44,9 @@ class SheetText:
         self.groups, self.lets, self.ramps, self.blocks = [], [], [], []
 
     def group(self, kind, names):
-        """A group of `objects` or `materials`; gives its name."""
+        """A group of `objects` or `materials`, whose names mean nothing in patterns; gives its name."""
         name = f"group_{len(self.groups)}"
-        self.groups.append(f"{name} = {{ {kind} = {list_text(pattern(n) for n in names)} }}")
+        self.groups.append(f"{name} = {{ {kind} = {list_text(names)} }}")
         return name
 
     def let(self, expression):

@@ -1,17 +1,15 @@
-"""Style sheets that a user chooses, and their parameters: those that come with the program, texts and files."""
+"""Style sheets that a user chooses, presets, texts and files, and their parameters."""
 
 import functools
-import json
 import os
 import re
-import shutil
-import subprocess
 
 import bpy
 from bpy.props import EnumProperty, PointerProperty, StringProperty
 
-from . import core, library
+from . import core
 from .object_rules import ObjectRules
+from .presets import answers, own_files, sheet_items, text_of_file, text_of_name
 from .sheet_text import color_list
 
 try:
@@ -19,9 +17,7 @@ try:
 except ImportError:  # Python before 3.11: sheets are drawn, but their parameters cannot be shown
     tomllib = None
 
-# Sheets of the program, for when the program itself is not there.
-BUILT_IN = ("technical", "blueprint", "comic", "patent", "wireframe", "instructions", "pencil", "architect", "strata")
-SECONDS_TO_ANSWER = 10
+UNIT = re.compile(r"In (px|mm|pt|%|world)")  # what a slider says
 LENGTH = re.compile(r"\s*([-+0-9.eE]+)\s*(px|mm|pt|%|world)\s*")
 
 
@@ -57,77 +53,26 @@ def linear_color(value):
     return tuple(c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in codes)
 
 
-def program():
-    """The path of the program `burin` that belongs to the library, or None: some things only the program tells."""
-    named = [core.preference(), os.environ.get("BURIN", ""), shutil.which("burin") or ""]
-    try:
-        folder = os.path.dirname(os.path.realpath(library.find_library(core.preference())))
-        named += [os.path.join(folder, *up, "burin") for up in ((), ("..", "bin"), ("..", "..", "bin"))]
-    except library.LibraryError:
-        pass
-    for path in named:
-        path = os.path.join(path, "burin") if os.path.isdir(path) else path
-        if os.path.isfile(path) and ".so" not in os.path.basename(path) and os.access(path, os.X_OK):
-            return path
-    return None
-
-
-def answer(*arguments):
-    """What the program prints, or None."""
-    path = program()
-    if path is None:
-        return None
-    # Blender's own settings for Python are none of the program's business.
-    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
-    try:
-        done = subprocess.run([path, *arguments], capture_output=True, env=environment, stdin=subprocess.DEVNULL,
-                              timeout=SECONDS_TO_ANSWER)
-    except (OSError, subprocess.TimeoutExpired):
-        return None
-    return done.stdout.decode(errors="replace") if done.returncode == 0 else None
-
-
-@functools.lru_cache(maxsize=None)
-def known_sheets():
-    """(name, summary) of the sheets that can be had by name."""
-    text = answer("styles", "--json")
-    try:
-        return tuple((s["name"], s["summary"]) for s in json.loads(text)["styles"])
-    except (KeyError, TypeError, ValueError):
-        return tuple((name, "") for name in BUILT_IN)
-
-
-@functools.lru_cache(maxsize=None)
-def text_of_name(name):
-    """The text of a sheet that can be had by name; None if the program is not there to tell it."""
-    return answer("styles", name)
-
-
-@functools.lru_cache(maxsize=None)
-def sheet_items():
-    """For an EnumProperty: Blender wants its texts to live on."""
-    return [(name, name.replace("_", " ").title(), summary) for name, summary in known_sheets()]
-
-
-@functools.lru_cache(maxsize=8)
-def text_of_file(path, changed):
-    """The text of a file, read again when it has changed."""
-    with open(path, encoding="utf-8") as file:
-        return file.read()
-
-
 def sheet_of(settings):
     """The sheet that was chosen, as burin_set_style() takes it. Throws SheetError."""
     if settings.source == "NAME":
-        return settings.name_of_sheet
+        name = settings.name_of_sheet
+        if not name:  # what Blender says of a number that no item has
+            raise SheetError("the preset that was chosen is not there (Render properties, Style Sheet)")
+        path = own_files().get(name)
+        return name if path is None else text_of_path(path)
     if settings.source == "TEXT":
         if settings.text is None:
             raise SheetError("no text with a style sheet is chosen (Render properties, Style Sheet)")
-        # What has one line counts as a name.
-        return settings.text.as_string() + "\n\n"
+        # Of a text Blender makes no new copy when it is edited. What has one line counts as a name.
+        return settings.text.original.as_string() + "\n\n"
     if not settings.path:
         raise SheetError("no file with a style sheet is chosen (Render properties, Style Sheet)")
-    path = bpy.path.abspath(settings.path)
+    return text_of_path(bpy.path.abspath(settings.path))
+
+
+def text_of_path(path):
+    """The text of a file as burin_set_style() takes it. Throws SheetError."""
     try:
         return text_of_file(path, os.stat(path).st_mtime_ns) + "\n\n"
     except (OSError, UnicodeDecodeError) as error:
@@ -158,9 +103,24 @@ def parameters_of_text(text):
         return ()
 
 
+def kept_parameters(values):
+    """The parameters that sliders were made for, as the sliders say. They serve where the sheet's text is not known."""
+    found = []
+    for name in values.keys():
+        hints = values.id_properties_ui(name).as_dict()
+        # A script's value has no slider: a colour is one without it, but of a number nobody knows the unit.
+        if hasattr(values[name], "__len__") or "description" in hints:
+            default, unit = hints["default"], UNIT.fullmatch(hints.get("description", ""))
+            found.append(Parameter(name, f"{default!r}{unit[1]}" if unit else default, hints["min"], hints["max"]))
+    return tuple(found)
+
+
 def parameters(settings):
     """The parameters of the sheet that was chosen."""
-    return parameters_of_text(text_of(settings))
+    text = text_of(settings)
+    if settings.source != "NONE" and (text is None or tomllib is None):
+        return kept_parameters(settings.values)
+    return parameters_of_text(text)
 
 
 def fits(parameter, value):
@@ -171,7 +131,7 @@ def fits(parameter, value):
 def read_parameters(settings, keep):
     """Makes a slider for each parameter. `keep`: values that are there already stay."""
     values = settings.values
-    known = {parameter.name: parameter for parameter in parameters(settings)}
+    known = {parameter.name: parameter for parameter in parameters(settings) if parameter.value != ()}
     for name in list(values.keys()):
         if not keep or name not in known or not fits(known[name], values[name]):
             del values[name]
@@ -207,18 +167,23 @@ def parameter_lines(settings):
     return found
 
 
-def not_drawn(scene):
-    """What of objects and materials a sheet of its own has no say about."""
+def not_drawn(settings, shown):
+    """What of objects and materials a sheet of its own has no say about, and values that cannot be given to it."""
     notes = []
-    if ObjectRules(scene):
+    if text_of(settings) is None:
+        known = {parameter.name for parameter in parameters(settings)}
+        notes += [f"the value of the style sheet's parameter {name} counts for nothing: the program burin, which tells "
+                  "what it means, is not found" for name in settings.values.keys() if name not in known]
+    if ObjectRules(shown):
         notes.append("beside a style sheet Line Art's usage and crease angles of objects count for nothing")
-    if any(slot.material is not None and slot.material.burin.use_line_color
-           for thing in scene.objects for slot in thing.material_slots):
+    if any(material.own_color is not None for material in shown.materials.values()):
         notes.append("beside a style sheet line colours of materials count for nothing")
     return notes
 
 
 def sheet_changed(settings, context):
+    for name in list(settings.values.keys()):
+        del settings.values[name]
     read_parameters(settings, keep=False)
 
 
@@ -251,5 +216,4 @@ def register():
 def unregister():
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)
-    for function in (known_sheets, text_of_name, sheet_items):
-        function.cache_clear()
+    answers.__init__()

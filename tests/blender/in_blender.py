@@ -47,6 +47,19 @@ def paint(thing, name, color):
     return material
 
 
+def gathered():
+    """What the add-on takes from the scene, as a viewport would."""
+    from burin_blender.gather import gather
+    return gather(bpy.context.evaluated_depsgraph_get())
+
+
+def look_of(scene, view_layer):
+    """Settings and style sheet, as the library gets them."""
+    from burin_blender import line_sets, properties
+    shown = gathered().shown
+    return properties.settings_lines(scene, shown), line_sets.sheet_text(scene, view_layer, shown)
+
+
 def read(path):
     """The channels of an EXR by name, (height, width), rows from the top. Files of one part only."""
     file = oiio.ImageInput.open(str(path))
@@ -65,6 +78,22 @@ def render(name="picture", **arguments):
     bpy.context.scene.render.filepath = str(path)
     bpy.ops.render.render(write_still=True, **arguments)
     return read(path)
+
+
+def told(job):
+    """Calls job(), and gives its result and what the engine has reported."""
+    from burin_blender import engine
+    said, original = [], engine.BurinEngine.tell
+
+    def tell(self, kind, notes):
+        said.extend(sorted(set(notes) - engine._told))
+        original(self, kind, notes)
+
+    engine.BurinEngine.tell = tell
+    try:
+        return job(), said
+    finally:
+        engine.BurinEngine.tell = original
 
 
 def main(checks):

@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 from bpy_extras.object_utils import world_to_camera_view
 
-from in_blender import FOLDER, add, main, new_scene, read, render
+from in_blender import FOLDER, add, gathered, main, new_scene, read, render
 
 WIDTH, HEIGHT = 320, 240
 TOLERANCE = 0.02  # of lengths and thicknesses
@@ -345,17 +345,17 @@ def what_is_not_drawn_is_named_once():
     modifier("alpha", "NOISE")
     modifier("geometry", "SPATIAL_NOISE")
     modifier("geometry", "SAMPLING")
-    notes = line_sets.not_drawn(scene, view_layer)
+    notes = line_sets.not_drawn(scene, view_layer, gathered().shown)
     for words in ("suggestive", "face marks", "sketchy", "square caps", "split pattern", "sorting", "Noise",
                   "Spatial Noise"):
         assert sum(words in note for note in notes) >= 1, (words, notes)
     assert len(notes) == len(set(notes)) == 8 and all("odd" in note for note in notes), notes
     assert float(alpha().sum()) > 0
     scene.render.use_freestyle = True
-    assert "Freestyle itself is on" in line_sets.not_drawn(scene, view_layer)[0]
+    assert "Freestyle itself is on" in line_sets.not_drawn(scene, view_layer, gathered().shown)[0]
     scene.render.use_freestyle = False
     view_layer.freestyle_settings.mode = "SCRIPT"
-    assert len(line_sets.not_drawn(scene, view_layer)) == 1 and float(alpha().sum()) == 0
+    assert len(line_sets.not_drawn(scene, view_layer, gathered().shown)) == 1 and float(alpha().sum()) == 0
 
 
 def white(thing):

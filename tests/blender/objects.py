@@ -9,13 +9,7 @@ sys.path.insert(0, os.path.dirname(__file__))
 import bpy
 import numpy as np
 
-from in_blender import FOLDER, add, main, new_scene, paint, read, render
-
-
-def gathered():
-    """What the add-on takes from the scene, as for a render."""
-    from burin_blender.gather import gather
-    return gather(bpy.context.evaluated_depsgraph_get())
+from in_blender import FOLDER, add, gathered, main, new_scene, paint, read, render
 
 
 def names(result):
@@ -367,7 +361,7 @@ def pictures_are_those_of_the_program():
         text += ["[[object]]", f'file = "{thing.name}.obj"', f'name = "{thing.name}"',
                  f"matrix = {numbers(np.array(thing.matrix_world).ravel())}"]
     (FOLDER / "scene.toml").write_text("\n".join(text) + "\n")
-    sets = [part for line in settings_lines(scene, bpy.context.view_layer) for part in ("--set", line)]
+    sets = [part for line in settings_lines(scene, gathered().shown) for part in ("--set", line)]
     subprocess.run([os.environ["BURIN_PROGRAM"], "render", FOLDER / "scene.toml", "-o", FOLDER / "own.exr", "-q",
                     *sets], check=True)
     own = read(FOLDER / "own.exr")

@@ -11,10 +11,10 @@ sys.path.insert(0, os.path.dirname(__file__))
 import addon_utils
 import bpy
 
-from in_blender import FOLDER, add, main, new_scene, paint, render
+from in_blender import FOLDER, add, gathered, look_of, main, new_scene, paint, render
 
 import burin_blender
-from burin_blender import blender_panels, core, freestyle_panels, line_sets, panels, properties, sheets
+from burin_blender import blender_panels, core, freestyle_panels, line_sets, panels, presets, sheets
 from burin_blender.look import Look
 
 
@@ -157,7 +157,7 @@ def every_choice_is_taken_by_the_library():
 
     def apply():
         nonlocal drawing, look
-        lines, sheet = properties.settings_lines(scene, view_layer), line_sets.sheet_text(scene, view_layer)
+        lines, sheet = look_of(scene, view_layer)
         if not look.fits(lines):
             drawing, look = core.Scene(), Look()
         look.apply(drawing, lines, sheet)
@@ -192,20 +192,20 @@ def presets_have_sliders():
     scene = new_scene()
     sheet = scene.burin.sheet
     sheet.source = "NAME"
-    program = sheets.program()
+    program = presets.program()
     listed = json.loads(subprocess.run([program, "styles", "--json"], capture_output=True, check=True).stdout)["styles"]
-    assert [s["name"] for s in listed] == list(sheets.BUILT_IN)
+    assert [s["name"] for s in listed] == list(presets.BUILT_IN)
     for entry in listed:
         sheet.name_of_sheet = entry["name"]
         assert sorted(sheet.values.keys()) == sorted(p["name"] for p in entry["parameters"])
-        lines = properties.settings_lines(scene, bpy.context.view_layer)
+        lines = look_of(scene, bpy.context.view_layer)[0]
         assert not any(line.startswith("style.") for line in lines), lines  # all is as in the sheet
         drawing = core.Scene()
         for parameter in sheets.parameters(sheet):
             sheet.values[parameter.name] = (0.5, 0.25, 0.125) if parameter.is_color else parameter.value * 0.5
-        lines = properties.settings_lines(scene, bpy.context.view_layer)
+        lines = look_of(scene, bpy.context.view_layer)[0]
         assert sum(line.startswith("style.") for line in lines) == len(entry["parameters"])
-        Look().apply(drawing, lines, line_sets.sheet_text(scene, bpy.context.view_layer))
+        Look().apply(drawing, lines, look_of(scene, bpy.context.view_layer)[1])
         shown = drawn(panels.BURIN_PT_lines)
         assert all(f'["{p["name"]}"]' in shown for p in entry["parameters"]), shown
         bpy.ops.burin.reset_sheet()
@@ -213,7 +213,7 @@ def presets_have_sliders():
     hints = sheet.values.id_properties_ui("width").as_dict()
     assert sheet.values["width"] == 0.5 and (hints["min"], hints["max"], hints["default"]) == (0, 200, 0.5), hints
     sheet.values["width"] = 0.25
-    assert "style.width=0.25mm" in properties.settings_lines(scene, bpy.context.view_layer)
+    assert "style.width=0.25mm" in look_of(scene, bpy.context.view_layer)[0]
 
 
 def sheets_can_be_edited():
@@ -223,7 +223,7 @@ def sheets_can_be_edited():
     sheet.values["width"] = 7.0
     assert bpy.ops.burin.edit_sheet() == {"FINISHED"}
     assert sheet.source == "TEXT" and sheet.text.name == "comic.toml" and sheet.values["width"] == 7
-    assert "[style.brush]" in line_sets.sheet_text(scene, bpy.context.view_layer)
+    assert "[style.brush]" in look_of(scene, bpy.context.view_layer)[1]
     sheet.text.from_string(sheet.text.as_string().replace("[parameters]", "[parameters]\nnew = 4"))
     bpy.ops.burin.read_sheet()
     assert sheet.values["new"] == 4 and sheet.values["width"] == 7
@@ -232,8 +232,7 @@ def sheets_can_be_edited():
                     'width = "=own"\n')
     sheet.source, sheet.path = "FILE", str(path)
     assert list(sheet.values.keys()) == ["own"]
-    Look().apply(core.Scene(), properties.settings_lines(scene, bpy.context.view_layer),
-                 line_sets.sheet_text(scene, bpy.context.view_layer))
+    Look().apply(core.Scene(), *look_of(scene, bpy.context.view_layer))
 
 
 def wrong_sheets_are_errors():
@@ -242,7 +241,7 @@ def wrong_sheets_are_errors():
 
     def message():
         try:
-            text = line_sets.sheet_text(scene, bpy.context.view_layer)
+            text = look_of(scene, bpy.context.view_layer)[1]
             core.Scene().set_style(text)
         except core.BurinError as error:
             return str(error)
@@ -272,7 +271,7 @@ def too_many_are_told():
             material.burin.use_line_color = True
             material.burin.line_color = (len(cube.data.materials) / 128, 0.5, 0)
         try:
-            core.Scene().set_style(line_sets.sheet_text(scene, view_layer))
+            core.Scene().set_style(look_of(scene, view_layer)[1])
             assert not is_error
         except core.BurinError as error:
             assert is_error and "101 line colours" in str(error), error
@@ -281,13 +280,14 @@ def too_many_are_told():
     while len(sets) < 65:
         sets.new("many")
     sets.remove(sets[0])  # that of a new scene, without a style
-    core.Scene().set_style(line_sets.sheet_text(scene, view_layer))
+    core.Scene().set_style(look_of(scene, view_layer)[1])
     sets.new("one more")
     try:
-        line_sets.sheet_text(scene, view_layer)
+        look_of(scene, view_layer)[1]
         raise AssertionError("no error")
     except core.BurinError as error:
-        assert "65 line sets" in str(error) and str(error) in line_sets.not_drawn(scene, view_layer), error
+        told = line_sets.not_drawn(scene, view_layer, gathered().shown)
+        assert "65 line sets" in str(error) and str(error) in told, error
 
 
 def a_sheet_only_where_it_is_needed():
@@ -295,18 +295,18 @@ def a_sheet_only_where_it_is_needed():
     cube, other = add("cube", "cube"), add("cube", "other", location=(3, 0, 0))
     red = paint(cube, 'red "1"', (1, 0, 0, 1))
     view_layer = bpy.context.view_layer
-    assert line_sets.sheet_text(scene, view_layer) is None
+    assert look_of(scene, view_layer)[1] is None
     red.burin.use_line_color, red.burin.line_color = True, (1, 0, 0)
-    text = line_sets.sheet_text(scene, view_layer)
+    text = look_of(scene, view_layer)[1]
     assert "rgb(1.0, 0.0, 0.0)" in text and "hidden" not in text
     scene.burin.hidden = "DASHED"
     other.lineart.usage = "OCCLUSION_ONLY"
     cube.lineart.use_crease_override, cube.lineart.crease_threshold = True, 2.0
-    text = line_sets.sheet_text(scene, view_layer)
+    text = look_of(scene, view_layer)[1]
     core.Scene().set_style(text)
     assert "[style.hidden]" in text and "not (object in" in text and "dihedral" in text
     scene.burin.sheet.source = "NAME"
-    assert len(line_sets.not_drawn(scene, view_layer)) == 2
+    assert len(line_sets.not_drawn(scene, view_layer, gathered().shown)) == 2
 
 
 def ink(channels, letter="A"):

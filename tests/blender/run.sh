@@ -8,7 +8,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 burin=$(realpath "$1")
 shift
 checks=("$@")
-[ ${#checks[@]} -gt 0 ] || checks=(layers objects frames cameras panels line_sets viewport)
+[ ${#checks[@]} -gt 0 ] || checks=(layers objects shown jobs frames cameras panels line_sets viewport)
 
 run=$(mktemp -d)
 trap 'rm -rf "$run"' EXIT

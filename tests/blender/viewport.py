@@ -13,9 +13,9 @@ import numpy as np
 import OpenImageIO as oiio
 from mathutils import Quaternion
 
-from in_blender import FOLDER, add, new_scene, paint
+from in_blender import FOLDER, add, look_of, new_scene, paint
 
-from burin_blender import line_sets, mesh_arrays, properties, view_fields, viewport
+from burin_blender import mesh_arrays, properties, view_fields, viewport
 from burin_blender.export import Session
 from burin_blender.look import Look
 
@@ -78,7 +78,7 @@ def from_library(shown=lambda thing: True):
     depsgraph = bpy.context.evaluated_depsgraph_get()
     session = Session()
     session.update(depsgraph)
-    Look().apply(session.scene, properties.settings_lines(scene, view_layer), line_sets.sheet_text(scene, view_layer))
+    Look().apply(session.scene, *look_of(scene, view_layer))
     with inside():
         fields = view_fields.fields_of(bpy.context, depsgraph)
     picture = session.scene.render({**fields, "samples": properties.samples_of(scene.burin.viewport_samples)}, "beauty")
