@@ -48,26 +48,26 @@ class BURIN_OT_edit_sheet(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class BURIN_OT_read_sheet(bpy.types.Operator):
+class ReadsParameters:
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context):
+        sheets.read_parameters(context.scene.burin.sheet, self.keep)
+        return {"FINISHED"}
+
+
+class BURIN_OT_read_sheet(ReadsParameters, bpy.types.Operator):
     """Look at the style sheet again: it may have other parameters now"""
     bl_idname = "burin.read_sheet"
     bl_label = "Update Parameters"
-    bl_options = {"REGISTER", "UNDO"}
-
-    def execute(self, context):
-        sheets.read_parameters(context.scene.burin.sheet, keep=True)
-        return {"FINISHED"}
+    keep = True
 
 
-class BURIN_OT_reset_sheet(bpy.types.Operator):
+class BURIN_OT_reset_sheet(ReadsParameters, bpy.types.Operator):
     """Give all parameters the values of the style sheet"""
     bl_idname = "burin.reset_sheet"
     bl_label = "Reset Parameters"
-    bl_options = {"REGISTER", "UNDO"}
-
-    def execute(self, context):
-        sheets.read_parameters(context.scene.burin.sheet, keep=False)
-        return {"FINISHED"}
+    keep = False
 
 
 def show_in_editor(context, text):
@@ -81,13 +81,4 @@ def show_in_editor(context, text):
 
 
 CLASSES = (BURIN_OT_standard_view, BURIN_OT_edit_sheet, BURIN_OT_read_sheet, BURIN_OT_reset_sheet)
-
-
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister():
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

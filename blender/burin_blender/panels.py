@@ -40,6 +40,19 @@ def warning(layout, text, icon="ERROR"):
     return box
 
 
+def active_if(is_active, layout):
+    """Where properties go that count only then."""
+    layout.active = is_active
+    return layout
+
+
+def switched(layout, heading, owner, switch, name, **options):
+    """A property beside the switch that has it count."""
+    row = layout.row(heading=heading)
+    row.prop(owner, switch, text="")
+    active_if(getattr(owner, switch), row.row()).prop(owner, name, text="", **options)
+
+
 class BURIN_PT_lines(BurinPanel, bpy.types.Panel):
     bl_label = "Lines"
 
@@ -112,17 +125,13 @@ class BURIN_PT_hidden(BurinPanel, bpy.types.Panel):
         settings = context.scene.burin
         column = self.column()
         column.prop(settings, "hidden")
-        column = column.column()
-        column.active = settings.hidden != "NONE"
+        column = active_if(settings.hidden != "NONE", column.column())
         column.prop(settings, "hidden_color")
         column.prop(settings, "use_hidden_width")
-        row = column.column()
-        row.active = settings.use_hidden_width
-        row.prop(settings, "hidden_width")
-        row = column.column(align=True)
-        row.active = settings.hidden == "DASHED"
-        row.prop(settings, "dash")
-        row.prop(settings, "gap")
+        active_if(settings.use_hidden_width, column.column()).prop(settings, "hidden_width")
+        dashes = active_if(settings.hidden == "DASHED", column.column(align=True))
+        dashes.prop(settings, "dash")
+        dashes.prop(settings, "gap")
 
 
 class BURIN_PT_surfaces(BurinPanel, bpy.types.Panel):
@@ -143,9 +152,7 @@ class BURIN_PT_surfaces(BurinPanel, bpy.types.Panel):
             column.prop(settings, "use_shadows")
         column.separator()
         column.prop(scene.render, "film_transparent", text="Transparent Background")
-        row = column.column()
-        row.active = not scene.render.film_transparent
-        row.prop(settings, "background")
+        active_if(not scene.render.film_transparent, column.column()).prop(settings, "background")
 
 
 class BURIN_PT_sampling(BurinPanel, bpy.types.Panel):
@@ -203,11 +210,7 @@ class BURIN_PT_material(BurinPanel, bpy.types.Panel):
     def draw(self, context):
         material, settings = context.material, context.scene.burin
         column = self.column()
-        row = column.row(heading="Line Color")
-        row.prop(material.burin, "use_line_color", text="")
-        color = row.row()
-        color.active = material.burin.use_line_color
-        color.prop(material.burin, "line_color", text="")
+        switched(column, "Line Color", material.burin, "use_line_color", "line_color")
         if material.burin.use_line_color and not draws_by_panels(settings):
             warning(column, "Line sets and style sheets have colours of their own", "INFO")
         column.prop(material, "diffuse_color", text="Viewport Color")
@@ -225,11 +228,7 @@ class BURIN_PT_object(BurinPanel, bpy.types.Panel):
         settings = context.object.lineart
         column = self.column()
         column.prop(settings, "usage")
-        row = column.row(heading="Crease Angle")
-        row.prop(settings, "use_crease_override", text="")
-        angle = row.row()
-        angle.active = settings.use_crease_override
-        angle.prop(settings, "crease_threshold", slider=True, text="")
+        switched(column, "Crease Angle", settings, "use_crease_override", "crease_threshold", slider=True)
 
 
 CLASSES = (BURIN_PT_lines, BURIN_PT_detection, BURIN_PT_hidden, BURIN_PT_surfaces, BURIN_PT_sampling,

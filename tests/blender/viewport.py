@@ -352,6 +352,15 @@ def looks():
     yield from same_as_library()
     settings.shading = "PAPER"  # needs a scene of the library that knows no shadows
     yield from same_as_library()
+    pen = bpy.data.objects["cube"].active_material.burin
+    plain = yield from same_as_library()
+    pen.use_line_color, pen.line_color = True, (1, 0, 0)
+    colored = yield from same_as_library()
+    bpy.data.objects["cube"].lineart.usage = "OCCLUSION_ONLY"
+    silent = yield from same_as_library()
+    bpy.data.objects["cube"].lineart.usage, pen.use_line_color = "INHERIT", False
+    if not (plain != colored).any() or not (colored != silent).any():
+        raise Fails("a line colour or a usage is not seen")
     settings.sheet.source, settings.sheet.name_of_sheet = "NAME", "pencil"
     yield from same_as_library()
     settings.use_line_sets = True
