@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
+
+#include "base/parallel.h"
 
 namespace burin {
 namespace {
@@ -13,6 +16,8 @@ constexpr double kMeetsPx = 0.5;
 constexpr double kInFrontPx = 1.0;
 /// An end so far from those of its chain is none of these.
 constexpr double kWithinPx = 1.0;
+/// What rounding to single precision makes of a gap.
+constexpr double kRoundedGapPx = 1e-5;
 /// Pieces of the same run that are no farther along it are the end itself.
 constexpr double kOwnPx = 2;
 /// Runs that are shorter are crumbs, as lie about the cusps of contours: no line goes on in them.
@@ -22,92 +27,232 @@ constexpr double kDirectionPx = 1.5;
 /// Cosines of the angles between which a line ceases to go straight on: 30 and 10 degrees.
 constexpr double kTurnedCosine = 0.866, kStraightCosine = 0.985;
 
+/// The strip ahead of an end in which a line goes on is wider by that share of the distance, on either side.
+constexpr double kWidening = 0.25;
+
 /// One end of a run that something may meet.
 struct OpenEnd {
-    std::size_t run;
-    std::size_t which;  // 0: its beginning
-    glm::dvec2 ahead;   // the direction in which the run ends, of length 1
+    std::size_t run = 0;
+    std::size_t which = 0;  // 0: its beginning
+    glm::dvec2 place{0.0};  // in the picture
+    glm::dvec2 ahead{0.0};  // the direction in which the run ends, of length 1
 };
 
-/// EndCells holds ends by square cells of the picture; what is within reach of a place is in the nine cells around it.
-class EndCells {
+/// What may meet an end: a piece of a run, or a boundary, along which nothing is drawn.
+struct Neighbour {
+    const LinePiece* piece;
+    std::size_t run;    // RunEnds::kNoRun for a boundary
+    std::size_t index;  // in LineRuns::pieces
+};
+
+/// PieceCells holds pieces by the square cells of the picture that they touch.
+class PieceCells {
   public:
-    static constexpr double kReachPx = kMeetsPx + static_cast<double>(kFarthestGapPx);
-
-    explicit EndCells(PixelRect picture)
+    /// Cells are so large that a few pieces lie in one, and never larger than the search goes.
+    PieceCells(PixelRect picture, std::span<const Neighbour> pieces)
         : corner_(picture.x0, picture.y0),
-          columns_(1 + static_cast<std::size_t>(picture.width() / kReachPx)),
-          rows_(1 + static_cast<std::size_t>(picture.height() / kReachPx)) {}
-
-    /// `places`: of all ends, within the picture.
-    void fill(std::span<const OpenEnd> ends, std::span<const glm::dvec2> places) {
-        first_.assign(columns_ * rows_ + 1, 0);
-        for (const glm::dvec2& p : places) ++first_[cell_at(p) + 1];
+          cell_px_(std::clamp(std::sqrt(static_cast<double>(picture.width()) * picture.height() /
+                                        (1.0 + static_cast<double>(pieces.size()))),
+                              kLeastCellPx, kReachPx)),
+          columns_(1 + static_cast<std::ptrdiff_t>(picture.width() / cell_px_)),
+          rows_(1 + static_cast<std::ptrdiff_t>(picture.height() / cell_px_)) {
+        first_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
+        for (const Neighbour& n : pieces) for_cells(*n.piece, [&](std::size_t cell) { ++first_[cell + 1]; });
         for (std::size_t i = 0; i + 1 < first_.size(); ++i) first_[i + 1] += first_[i];
-        ends_.resize(ends.size());
+        entries_.resize(first_.back());
         std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-        for (std::size_t i = 0; i < ends.size(); ++i) ends_[next[cell_at(places[i])]++] = ends[i];
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            const LinePiece& piece = *pieces[i].piece;
+            const Entry entry{0.5 * (piece.from + piece.to), 0.5 * glm::distance(piece.from, piece.to), i};
+            for_cells(piece, [&](std::size_t cell) { entries_[next[cell]++] = entry; });
+        }
     }
 
-    /// Calls `visit` with each end that may be within reach of the box.
-    template <typename Visit>
-    void for_near(glm::dvec2 low, glm::dvec2 high, Visit&& visit) const {
-        const std::size_t x0 = at(low.x - kReachPx - corner_.x, columns_),
-                          x1 = at(high.x + kReachPx - corner_.x, columns_);
-        for (std::size_t y = at(low.y - kReachPx - corner_.y, rows_); y <= at(high.y + kReachPx - corner_.y, rows_);
-             ++y) {
-            for (std::size_t i = first_[y * columns_ + x0]; i < first_[y * columns_ + x1 + 1]; ++i) visit(ends_[i]);
+    /// Calls `visit` with the numbers of pieces around an end, the nearer cells first: of those within `around_px()`,
+    /// and of those that lie ahead, within `ahead_px()`. Both may shrink meanwhile, and the former is never more. A
+    /// piece may be visited several times.
+    template <typename Around, typename Ahead, typename Visit>
+    void for_near(const OpenEnd& from, Around&& around_px, Ahead&& ahead_px, Visit&& visit) const {
+        const std::ptrdiff_t x = at(from.place.x - corner_.x, columns_), y = at(from.place.y - corner_.y, rows_);
+        const auto visit_cell = [&](std::ptrdiff_t cell) {
+            const std::size_t end = first_[static_cast<std::size_t>(cell) + 1];
+            for (std::size_t i = first_[static_cast<std::size_t>(cell)]; i < end; ++i) {
+                const Entry& e = entries_[i];
+                const glm::dvec2 way = e.middle - from.place;
+                const double reach = e.radius_px + (is_ahead(from, way, e.radius_px) ? ahead_px() : around_px());
+                if (glm::dot(way, way) <= reach * reach) visit(e.piece);
+            }
+        };
+        const auto may_be_ahead = [&](std::ptrdiff_t column, std::ptrdiff_t row) {
+            // What lies beyond the picture is in the cells at its frame.
+            if (column == 0 || row == 0 || column == columns_ - 1 || row == rows_ - 1) return true;
+            const glm::dvec2 middle = corner_ + cell_px_ * (glm::dvec2(column, row) + 0.5);
+            return is_ahead(from, middle - from.place, cell_px_);
+        };
+        for (std::ptrdiff_t ring = 0; static_cast<double>(ring - 1) * cell_px_ < ahead_px(); ++ring) {
+            const bool is_far = static_cast<double>(ring - 1) * cell_px_ >= around_px();
+            for (std::ptrdiff_t row = std::max<std::ptrdiff_t>(y - ring, 0); row <= std::min(y + ring, rows_ - 1);
+                 ++row) {
+                const bool is_whole = row == y - ring || row == y + ring;
+                for (std::ptrdiff_t column = x - ring; column <= x + ring; column += is_whole ? 1 : 2 * ring) {
+                    if (column < 0 || column >= columns_ || (is_far && !may_be_ahead(column, row))) continue;
+                    visit_cell(row * columns_ + column);
+                }
+            }
         }
     }
 
   private:
-    static std::size_t at(double px, std::size_t count) {
-        return static_cast<std::size_t>(std::clamp(px / kReachPx, 0.0, static_cast<double>(count - 1)));
+    static constexpr double kLeastCellPx = 2, kReachPx = kMeetsPx + static_cast<double>(kFarthestGapPx);
+    struct Entry {
+        glm::dvec2 middle;
+        double radius_px;
+        std::size_t piece;
+    };
+
+    /// Whether a place so far from another may be where RunEnds::goes_on() finds that a line goes on.
+    static bool is_ahead(const OpenEnd& end, glm::dvec2 way, double radius_px) {
+        const double along = glm::dot(way, end.ahead) + radius_px + kRoundedPx;
+        const double beside = std::abs(way.x * end.ahead.y - way.y * end.ahead.x) - radius_px - kRoundedPx;
+        return along >= -2 * kMeetsPx && beside <= 2 * kMeetsPx + kWidening * std::max(along, 0.0);
     }
-    std::size_t cell_at(glm::dvec2 p) const {
-        return at(p.y - corner_.y, rows_) * columns_ + at(p.x - corner_.x, columns_);
+    std::ptrdiff_t at(double px, std::ptrdiff_t count) const {
+        return static_cast<std::ptrdiff_t>(std::clamp(px / cell_px_, 0.0, static_cast<double>(count - 1)));
     }
+    /// Calls `visit` with the cells that a piece touches, row by row.
+    template <typename Visit>
+    void for_cells(const LinePiece& piece, Visit&& visit) const {
+        const bool is_downward = piece.from.y <= piece.to.y;
+        const glm::dvec2 top = (is_downward ? piece.from : piece.to) - corner_;
+        const glm::dvec2 bottom = (is_downward ? piece.to : piece.from) - corner_;
+        const double slope = bottom.y > top.y ? (bottom.x - top.x) / (bottom.y - top.y) : 0;
+        const std::ptrdiff_t last = at(bottom.y, rows_);
+        for (std::ptrdiff_t row = at(top.y, rows_); row <= last; ++row) {
+            const auto x_at = [&](double y) {
+                return slope == 0 || y <= top.y ? top.x : y >= bottom.y ? bottom.x : top.x + (y - top.y) * slope;
+            };
+            const double row_px = static_cast<double>(row) * cell_px_;
+            // The first and the last row of cells have what lies beyond the picture, too.
+            const double x0 = row == 0 ? top.x : x_at(row_px);
+            const double x1 = row == rows_ - 1 ? bottom.x : x_at(row_px + cell_px_);
+            const bool is_flat = slope == 0;
+            const double low = is_flat ? std::min(top.x, bottom.x) : std::min(x0, x1);
+            const double high = is_flat ? std::max(top.x, bottom.x) : std::max(x0, x1);
+            const std::ptrdiff_t end = at(high + kRoundedPx, columns_);
+            for (std::ptrdiff_t column = at(low - kRoundedPx, columns_); column <= end; ++column)
+                visit(static_cast<std::size_t>(row * columns_ + column));
+        }
+    }
+    static constexpr double kRoundedPx = 1e-6;
 
     glm::dvec2 corner_;
-    std::size_t columns_, rows_;
-    std::vector<std::size_t> first_;  // of each cell, in ends_
-    std::vector<OpenEnd> ends_;
+    double cell_px_;
+    std::ptrdiff_t columns_, rows_;
+    std::vector<std::size_t> first_;  // of each cell, in entries_
+    std::vector<Entry> entries_;
 };
 
 /// RunEnds looks for what meets the ends of runs.
 class RunEnds {
   public:
-    RunEnds(LineRuns& runs, const Projection& projection, PixelRect picture)
-        : runs_(runs), projection_(projection), picture_(picture), cells_(picture) {
-        std::vector<OpenEnd> open;
-        std::vector<glm::dvec2> places;
-        for (std::size_t i = 0; i < runs.runs.size(); ++i) {
-            LineRun& run = runs.runs[i];
-            if (run.is_closed || run.count == 0) continue;
-            for (std::size_t which = 0; which < 2; ++which) {
-                const glm::dvec2 p = place(run, which);
-                if (is_at_frame(p)) {
-                    stop(run, which, RunEnd::frame);
-                } else if (is_within_chain(run, which)) {
-                    stop(run, which, RunEnd::occluded);
-                } else {
-                    open.push_back(
-                        {i, which, direction_at(run, which == 0 ? 0 : run.count - 1) * (which == 0 ? -1.0 : 1.0)});
-                    places.push_back(p);
-                }
+    RunEnds(LineRuns& runs, std::span<const LinePiece> boundaries, const Projection& projection, PixelRect picture)
+        : runs_(runs),
+          projection_(projection),
+          picture_(picture),
+          occluders_(occluders_of(runs, boundaries)),
+          corners_(corners_of(runs)),
+          broken_lines_(broken_lines_of(runs)),
+          occluder_cells_(picture, occluders_),
+          corner_cells_(picture, corners_) {}
+
+    /// Finds what stops the ends of one run. Changes nothing else.
+    void find_ends(std::size_t of_run) {
+        LineRun& run = runs_.runs[of_run];
+        if (run.is_closed || run.count == 0) return;
+        for (std::size_t which = 0; which < 2; ++which) {
+            const glm::dvec2 p = place(run, which);
+            if (is_at_frame(p)) {
+                stop(run, which, RunEnd::frame);
+            } else if (is_within_chain(run, which)) {
+                stop(run, which, RunEnd::occluded);
+            } else {
+                const glm::dvec2 onward = direction_at(run, which == 0 ? 0 : run.count - 1);
+                look_around({of_run, which, p, onward * (which == 0 ? -1.0 : 1.0)});
             }
         }
-        cells_.fill(open, places);
     }
 
     static constexpr std::size_t kNoRun = ~std::size_t{0};
-    /// Looks at a piece of run `own`; a boundary, along which nothing is drawn, is of no run.
-    void look_at(const LinePiece& piece, std::size_t own, std::size_t index) {
-        cells_.for_near(glm::min(piece.from, piece.to), glm::max(piece.from, piece.to),
-                        [&](const OpenEnd& end) { meet(end, piece, own, index); });
-    }
 
   private:
+    static std::vector<Neighbour> occluders_of(const LineRuns& runs, std::span<const LinePiece> boundaries) {
+        std::vector<Neighbour> all;
+        for (std::size_t i = 0; i < runs.runs.size(); ++i) {
+            const LineRun& run = runs.runs[i];
+            for (std::size_t k = run.first; k < run.first + run.count; ++k) {
+                if (runs.pieces[k].piece.occludes) all.push_back({&runs.pieces[k].piece, i, k});
+            }
+        }
+        for (const LinePiece& piece : boundaries) all.push_back({&piece, kNoRun, 0});
+        return all;
+    }
+    /// Lines that are long enough to be a corner.
+    static std::vector<Neighbour> corners_of(const LineRuns& runs) {
+        std::vector<Neighbour> all;
+        for (std::size_t i = 0; i < runs.runs.size(); ++i) {
+            const LineRun& run = runs.runs[i];
+            if (runs.length_px(run) < kCrumbPx) continue;
+            for (std::size_t k = run.first; k < run.first + run.count; ++k)
+                all.push_back({&runs.pieces[k].piece, i, k});
+        }
+        return all;
+    }
+    /// The pieces of lines that are partly seen and partly hidden, by line.
+    static std::vector<Neighbour> broken_lines_of(const LineRuns& runs) {
+        const auto has = [&runs](bool hidden) {
+            return std::any_of(runs.runs.begin(), runs.runs.end(),
+                               [&](const LineRun& r) { return r.is_hidden == hidden; });
+        };
+        std::vector<Neighbour> all;
+        if (!has(false) || !has(true)) return all;
+        for (std::size_t i = 0; i < runs.runs.size(); ++i) {
+            const LineRun& run = runs.runs[i];
+            for (std::size_t k = run.first; k < run.first + run.count; ++k)
+                all.push_back({&runs.pieces[k].piece, i, k});
+        }
+        std::sort(all.begin(), all.end(), [](const Neighbour& a, const Neighbour& b) {
+            return a.piece->line != b.piece->line ? a.piece->line < b.piece->line : a.index < b.index;
+        });
+        std::size_t kept = 0;
+        for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+            bool is_seen = false, is_hidden = false;
+            for (end = begin; end < all.size() && all[end].piece->line == all[begin].piece->line; ++end)
+                (all[end].piece->is_hidden() ? is_hidden : is_seen) = true;
+            if (!is_seen || !is_hidden) continue;
+            for (std::size_t i = begin; i < end; ++i) all[kept++] = all[i];
+        }
+        all.resize(kept);
+        return all;
+    }
+
+    void look_around(const OpenEnd& end) {
+        const LineRun& run = runs_.runs[end.run];
+        const LineId line = piece_at(run, end.which).piece.line;
+        auto n = std::lower_bound(broken_lines_.begin(), broken_lines_.end(), line,
+                                  [](const Neighbour& a, LineId b) { return a.piece->line < b; });
+        for (; n != broken_lines_.end() && n->piece->line == line; ++n) meet(end, *n);
+        // What is farther away than the gaps that are known changes nothing.
+        const auto reach_px = [&run, &end](float gap_px) {
+            return run.ends[end.which] == RunEnd::occluded ? 0 : kMeetsPx + kRoundedGapPx + static_cast<double>(gap_px);
+        };
+        const auto gap_reach_px = [&] { return reach_px(run.gaps_px[end.which]); };
+        const auto any_reach_px = [&] {
+            return reach_px(std::max(run.gaps_px[end.which], run.onward_gaps_px[end.which]));
+        };
+        occluder_cells_.for_near(end, any_reach_px, any_reach_px, [&](std::size_t i) { meet(end, occluders_[i]); });
+        corner_cells_.for_near(end, gap_reach_px, any_reach_px, [&](std::size_t i) { meet(end, corners_[i]); });
+    }
+
     const RunPiece& piece_at(const LineRun& run, std::size_t which) const {
         return runs_.pieces[which == 0 ? run.first : run.first + run.count - 1];
     }
@@ -142,16 +287,19 @@ class RunEnds {
         const double along = glm::dot(from_end, end.ahead);
         const double beside = std::abs(from_end.x * end.ahead.y - from_end.y * end.ahead.x);
         const double is_before = std::clamp(1 + (along + kMeetsPx) / kMeetsPx, 0.0, 1.0);
-        const double is_on = std::clamp(1 - (beside - kMeetsPx) / (kMeetsPx + 0.25 * std::max(along, 0.0)), 0.0, 1.0);
+        const double is_on =
+            std::clamp(1 - (beside - kMeetsPx) / (kMeetsPx + kWidening * std::max(along, 0.0)), 0.0, 1.0);
         const double cosine = std::abs(glm::dot(direction, end.ahead));
         return is_before * is_on * std::clamp((cosine - kTurnedCosine) / (kStraightCosine - kTurnedCosine), 0.0, 1.0);
     }
 
-    void meet(const OpenEnd& end, const LinePiece& other, std::size_t own, std::size_t index) {
+    void meet(const OpenEnd& end, const Neighbour& neighbour) {
+        const LinePiece& other = *neighbour.piece;
+        const std::size_t own = neighbour.run, index = neighbour.index;
         LineRun& run = runs_.runs[end.run];
         if (run.ends[end.which] == RunEnd::occluded) return;
         const RunPiece& last = piece_at(run, end.which);
-        const glm::dvec2 p = place(run, end.which), way = other.to - other.from;
+        const glm::dvec2 p = end.place, way = other.to - other.from;
         const double square = glm::dot(way, way);
         const double share = square > 0 ? std::clamp(glm::dot(p - other.from, way) / square, 0.0, 1.0) : 0.0;
         const double distance = glm::distance(p, other.from + way * share);
@@ -194,19 +342,20 @@ class RunEnds {
     LineRuns& runs_;
     const Projection& projection_;
     PixelRect picture_;
-    EndCells cells_;
+    std::vector<Neighbour> occluders_, corners_, broken_lines_;
+    PieceCells occluder_cells_, corner_cells_;
 };
 
 }  // namespace
 
 void find_run_ends(LineRuns& runs, std::span<const LinePiece> boundaries, const Projection& projection,
-                   PixelRect picture) {
-    RunEnds ends(runs, projection, picture);
-    for (std::size_t i = 0; i < runs.runs.size(); ++i) {
-        const LineRun& run = runs.runs[i];
-        for (std::size_t k = run.first; k < run.first + run.count; ++k) ends.look_at(runs.pieces[k].piece, i, k);
-    }
-    for (const LinePiece& piece : boundaries) ends.look_at(piece, RunEnds::kNoRun, 0);
+                   PixelRect picture, int threads) {
+    constexpr std::size_t kRunsAtOnce = 64;
+    RunEnds ends(runs, boundaries, projection, picture);
+    const std::size_t count = runs.runs.size();
+    parallel_for((count + kRunsAtOnce - 1) / kRunsAtOnce, threads, [&](std::size_t i, int) {
+        for (std::size_t r = i * kRunsAtOnce; r < std::min(count, (i + 1) * kRunsAtOnce); ++r) ends.find_ends(r);
+    });
 }
 
 }  // namespace burin

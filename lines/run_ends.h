@@ -11,6 +11,6 @@ namespace burin {
 /// those to the nearest line or boundary that would stop the run if it came closer, so that what depends on them
 /// changes little when a line breaks by a hair.
 void find_run_ends(LineRuns& runs, std::span<const LinePiece> boundaries, const Projection& projection,
-                   PixelRect picture);
+                   PixelRect picture, int threads);
 
 }  // namespace burin

@@ -20,7 +20,8 @@ void find_sides_and_runs(const LineDrawing& drawing, const SurfaceSet& surfaces,
         }
     }
     if (needs.chains)
-        find_run_ends(lines.runs, lines.boundaries, surfaces.projection, {0, 0, lines.width_px, lines.height_px});
+        find_run_ends(lines.runs, lines.boundaries, surfaces.projection, {0, 0, lines.width_px, lines.height_px},
+                      threads);
     lines.has_chains = needs.chains;
     lines.has_normals = needs.normals;
     lines.sides.resize(lines.runs.pieces.size());

@@ -1,0 +1,114 @@
+// What is near the ends of runs is found however many lines there are, and by any number of threads.
+
+#include "lines/run_ends.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tests/support/random.h"
+
+namespace burin {
+namespace {
+
+/// A picture with room beside the lines that are looked at.
+constexpr PixelRect kPicture{0, 0, 700, 300};
+
+Projection parallel_projection() {
+    Projection projection;
+    projection.orthographic = true;
+    return projection;
+}
+
+class Lines {
+  public:
+    /// Adds a run of one straight piece.
+    void add(glm::dvec2 from, glm::dvec2 to, float nearness, bool occludes, bool is_hidden) {
+        RunPiece piece;
+        piece.piece.from = from;
+        piece.piece.to = to;
+        piece.piece.line = LineId::of_edge(static_cast<std::uint32_t>(runs.runs.size() / 2), 0);  // shared by two runs
+        piece.piece.nearness_from = piece.piece.nearness_to = nearness;
+        piece.piece.occludes = occludes;
+        piece.piece.invisibility = is_hidden ? 1 : 0;
+        piece.at_to_px = glm::distance(from, to);
+        LineRun run;
+        run.first = runs.pieces.size();
+        run.count = 1;
+        run.is_hidden = is_hidden;
+        runs.pieces.push_back(piece);
+        runs.runs.push_back(run);
+    }
+    void add_random(test::Random& random, glm::dvec2 low, glm::dvec2 high, int count, double longest_px) {
+        for (int i = 0; i < count; ++i) {
+            const glm::dvec2 from(random.real(low.x, high.x), random.real(low.y, high.y));
+            const double angle = random.real(0, 6.3), length = random.real(2.1, longest_px);
+            add(from, from + length * glm::dvec2(std::cos(angle), std::sin(angle)),
+                static_cast<float>(random.real(0, 9)), random.integer(0, 3) == 0, random.integer(0, 3) == 0);
+        }
+    }
+    void find_ends(int threads = 1) { find_run_ends(runs, {}, parallel_projection(), kPicture, threads); }
+
+    LineRuns runs;
+};
+
+void expect_equal(const LineRun& a, const LineRun& b) {
+    EXPECT_EQ(a.ends, b.ends);
+    EXPECT_EQ(a.gaps_px, b.gaps_px);
+    EXPECT_EQ(a.onward_gaps_px, b.onward_gaps_px);
+}
+
+double distance_to(const LinePiece& piece, glm::dvec2 p) {
+    const glm::dvec2 way = piece.to - piece.from;
+    return glm::distance(p,
+                         piece.from + way * std::clamp(glm::dot(p - piece.from, way) / glm::dot(way, way), 0.0, 1.0));
+}
+
+class RandomLines : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(RandomLines, HaveTheGapsToTheNearestOthers) {
+    test::Random random(GetParam());
+    Lines lines;
+    lines.add_random(random, {100, 100}, {200, 200}, random.integer(2, 400), random.real(3, 90));
+    lines.find_ends();
+    for (std::size_t i = 0; i < lines.runs.runs.size(); ++i) {
+        const LinePiece& own = lines.runs.pieces[i].piece;
+        for (const std::size_t which : {0u, 1u}) {
+            double nearest = 1e9;
+            for (std::size_t k = 0; k < lines.runs.pieces.size(); ++k) {
+                if (k != i)
+                    nearest =
+                        std::min(nearest, distance_to(lines.runs.pieces[k].piece, which == 0 ? own.from : own.to));
+            }
+            const double gap = std::clamp(nearest - 0.5, 0.0, static_cast<double>(kFarthestGapPx));
+            EXPECT_NEAR(static_cast<double>(lines.runs.runs[i].gaps_px[which]), gap, 1e-5)
+                << "seed " << GetParam() << " run " << i << " end " << which;
+        }
+    }
+}
+
+/// A crowd elsewhere, which makes cells smaller, changes nothing, and neither do threads.
+TEST_P(RandomLines, AreMetByWhatIsNearAlone) {
+    test::Random random(GetParam());
+    Lines lines;
+    lines.add_random(random, {100, 100}, {200, 200}, random.integer(2, 400), random.real(3, 90));
+    Lines crowded = lines;
+    crowded.add_random(random, {380, 20}, {680, 280}, 40000, 4);
+    lines.find_ends();
+    crowded.find_ends(3);
+    int onward = 0;
+    for (std::size_t i = 0; i < lines.runs.runs.size(); ++i) {
+        SCOPED_TRACE("seed " + std::to_string(GetParam()) + " run " + std::to_string(i));
+        expect_equal(lines.runs.runs[i], crowded.runs.runs[i]);
+        for (const float gap : lines.runs.runs[i].onward_gaps_px) onward += gap > 0 && gap < kFarthestGapPx ? 1 : 0;
+    }
+    if (lines.runs.runs.size() > 200) {
+        EXPECT_GT(onward, 0);
+    }
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomLines, testing::Range<std::uint64_t>(0, 12));
+
+}  // namespace
+}  // namespace burin
