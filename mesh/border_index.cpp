@@ -244,6 +244,10 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
         return nearest.partner;
     }
     const double radius = (sight.radius + sight.growth * nearest.reach / sine) / per_radius;
+    if (sight.radius >= nearest.reach) {  // all in reach are seen near the place
+        find_nearest(*own, at, nearest);
+        return nearest.partner;
+    }
     const double along_sight = (nearest.reach + radius) / sine;
     const glm::dvec3 from = at - along_sight * sight.direction, to = at + along_sight * sight.direction;
     double farthest = along_sight + radius;
