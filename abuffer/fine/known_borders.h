@@ -18,12 +18,11 @@ namespace burin {
 /// beside them. It may forget some.
 class KnownBorders {
   public:
-    KnownBorders() : borders_(kMost) {}
-
     /// Puts the lines of a border into `lines`: those that are known, or what find(lines) adds.
     template <typename Find>
     void lines_of(std::uint32_t instance, HalfEdge h, std::vector<WholeLine>& lines, const Find& find) {
         lines.clear();
+        std::call_once(has_room_, [&] { borders_.resize(kMost); });  // most meshes have no borders
         const std::size_t place = (h + std::size_t{7919} * instance) % kMost;
         Border& border = borders_[place];
         std::mutex& mutex = mutexes_[place % kMutexes];
@@ -48,6 +47,7 @@ class KnownBorders {
         HalfEdge half_edge = kNoHalfEdge;
         std::vector<WholeLine> lines;
     };
+    std::once_flag has_room_;
     std::vector<Border> borders_;
     std::array<std::mutex, kMutexes> mutexes_;
 };
