@@ -62,8 +62,9 @@ std::vector<Polygon> pile(std::uint64_t seed) {
     const glm::dvec3 middle(0, 4, 0);
     for (int i = 0; i < 1500; ++i) {
         if (seed % 2 == 0) {
-            const glm::dvec3 off = middle + glm::dvec3(0.02, 0.02, 0.2) * random.in_box(1);
-            polygons.push_back({off + glm::dvec3(-1, -1, 0), off + glm::dvec3(1, -1, 0), off + glm::dvec3(0, 1, 0)});
+            const glm::dvec3 off = middle + glm::dvec3(0.02, 0.02, 0.2) * random.in_box(1), tilt(0.1, 0.1, 0.2);
+            polygons.push_back({off + glm::dvec3(-1, -1, 0) - tilt, off + glm::dvec3(1, -1, 0) + tilt,
+                                off + glm::dvec3(0, 1, 0) + tilt});
         } else {
             const glm::dvec3 d = random.direction(), e = random.in_box(0.01);
             polygons.push_back({middle + d, middle - d + e, middle - d - e});
