@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "abuffer/fine/fine_lines.h"
+#include "abuffer/fine/known_borders.h"
 #include "abuffer/samples/line_tile.h"
 #include "abuffer/samples/pixel_fill.h"
 #include "abuffer/samples/surface_beyond.h"
@@ -72,7 +73,7 @@ class CompleteRows {
 class VisiblePass::Worker {
   public:
     Worker(const Frame& frame, const ScreenSurfaces& screen, const ShadedSurfaces* shaded, const TileKernels& kernels,
-           const TriangleBins& bins, const FineEdges* fine_edges, PixelRect region)
+           const TriangleBins& bins, const FineEdges* fine_edges, KnownBorders* known_borders, PixelRect region)
         : fine_edges_(fine_edges),
           bins_(bins),
           surface_(frame, screen, bins, samples_per_pixel_of(frame), kernels),
@@ -81,7 +82,7 @@ class VisiblePass::Worker {
           fine_parts_(screen, kernels, completes_lines(frame)),
           needs_beyond_(frame.needs.surfaces_beyond) {
         if (fine_edges_ != nullptr)
-            fine_lines_.emplace(frame, screen, bins, kernels, region, frame.needs.whole_picture);
+            fine_lines_.emplace(frame, screen, bins, kernels, region, frame.needs.whole_picture, *known_borders);
     }
 
     /// Fills the pixels of a tile and returns its lines, until the next call.
@@ -140,6 +141,8 @@ void VisiblePass::draw(PixelRect region, int tile_samples, RowSink* sink, LineDr
     const PixelTiles grid(region, tile_samples / per_pixel);
     if (has_fine) possible_lines_.emplace(screen_, threads_);
     std::optional<FineEdges> fine_edges;
+    std::optional<KnownBorders> known_borders;
+    if (has_edges) known_borders.emplace();
     if (has_edges)
         fine_edges.emplace(screen_, has_fine ? &*possible_lines_ : nullptr, loose, grid, per_pixel, threads_);
     if (!screen_.shows_all()) possible_lines_.reset();
@@ -154,8 +157,9 @@ void VisiblePass::draw(PixelRect region, int tile_samples, RowSink* sink, LineDr
     const auto draw_tile = [&](std::size_t tile, int number) {
         std::unique_ptr<Worker>& worker = workers[static_cast<std::size_t>(number)];
         if (!worker) {
-            worker = std::make_unique<Worker>(frame_, screen_, shaded_, kernels_, bins,
-                                              has_edges ? &*fine_edges : nullptr, region);
+            worker =
+                std::make_unique<Worker>(frame_, screen_, shaded_, kernels_, bins, has_edges ? &*fine_edges : nullptr,
+                                         has_edges ? &*known_borders : nullptr, region);
         }
         drawing.put_visible(tile, worker->draw(tile, film));
         Stopwatch lap;

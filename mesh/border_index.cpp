@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "mesh/near_segment.h"
@@ -140,7 +141,7 @@ BorderIndex::BorderIndex(std::vector<Segment> segments) : segments_(std::move(se
     all.reserve(segments_.size());
     for (std::uint32_t i = 0; i < segments_.size(); ++i) all.push_back(whole_of(segments_[i], i));
     whole_ = SegmentTree(all);
-    if (is_crowded()) pieces_ = SegmentTree(pieces_of(segments_));
+    if (is_crowded()) pieces_ = SegmentTree(pieces_of(segments_), SegmentTree::Cut::across_thin_boxes);
     reach_part_ = has_several_polygons() ? (has_crowds() ? reach_part_in_crowd() : kWidestReachPart) : 0;
 }
 
@@ -208,7 +209,7 @@ void BorderIndex::find_in_box(const glm::dvec3& low, const glm::dvec3& high, std
 
 std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm::dvec3& at) const {
     const Segment* const own = find(half_edge);
-    if (own == nullptr) return std::nullopt;
+    if (own == nullptr || !has_partners()) return std::nullopt;
     Nearest nearest{reach_part_ * glm::length(direction_of(*own)), {}};
     find_nearest(*own, at, nearest);
     return nearest.partner;
@@ -227,7 +228,7 @@ void BorderIndex::find_nearest(const Segment& own, const glm::dvec3& at, Nearest
 
 std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm::dvec3& at, const Sight& sight) const {
     const Segment* const own = find(half_edge);
-    if (own == nullptr) return std::nullopt;
+    if (own == nullptr || !has_partners()) return std::nullopt;
     const glm::dvec3 along = direction_of(*own);
     const double length = glm::length(along);
     Nearest nearest{reach_part_ * length, {}};
@@ -243,6 +244,10 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
         return nearest.partner;
     }
     const double radius = (sight.radius + sight.growth * nearest.reach / sine) / per_radius;
+    if (sight.radius >= nearest.reach) {  // all in reach are seen near the place
+        find_nearest(*own, at, nearest);
+        return nearest.partner;
+    }
     const double along_sight = (nearest.reach + radius) / sine;
     const glm::dvec3 from = at - along_sight * sight.direction, to = at + along_sight * sight.direction;
     double farthest = along_sight + radius;
@@ -270,7 +275,8 @@ BorderIndex::Neighbourhood BorderIndex::neighbourhood(HalfEdge half_edge, const 
     const glm::dvec3 along = direction_of(*own);
     const double length = glm::length(along);
     found.reach_ = reach_part_ * length;
-    found.others_ = found.reach_ + kFarther * length;
+    found.others_ = has_partners() ? found.reach_ + kFarther * length : std::numeric_limits<double>::infinity();
+    if (!has_partners()) return found;
     finest().visit_nearest(at, found.others_, [&](std::uint32_t i) {
         const Segment& other = segments_[i];
         if (!may_be_partners(*own, along, length, other)) return;
@@ -303,7 +309,8 @@ void BorderIndex::Neighbourhood::offer(const Segment& segment, double distance) 
 
 BorderIndex::Neighbourhood::Answer BorderIndex::Neighbourhood::partner_at(const glm::dvec3& place) const {
     const double away = glm::distance(place, at_);
-    const double others = (others_ - away) - 1e-9 * (others_ + away);  // but for rounding
+    const double others = others_ < std::numeric_limits<double>::infinity() ? (others_ - away) - 1e-9 * (others_ + away)
+                                                                            : others_;  // but for rounding
     Nearest nearest{reach_, {}};
     for (std::size_t i = 0; i < count_; ++i) nearest.offer(nearest_[i], place);
     return {nearest.partner ? nearest.reach < others : others >= reach_, nearest.partner};

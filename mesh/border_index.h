@@ -56,6 +56,8 @@ class BorderIndex {
 
     /// How near a partner must be, in lengths of the edge.
     double reach_part() const { return reach_part_; }
+    /// Whether any edge may have a partner: not where all borders are one polygon's.
+    bool has_partners() const { return reach_part_ > 0; }
 
     /// The seam partner at a place, with what it says of places near `at`.
     class Neighbourhood;

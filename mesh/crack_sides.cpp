@@ -66,10 +66,15 @@ glm::dvec3 CrackSides::across(std::uint32_t segment) const {
     return to_apex - along * (glm::dot(to_apex, along) / std::max(glm::dot(along, along), 1e-300));
 }
 
-/// The direction from the edge into the polygon.
 glm::dvec3 CrackSides::inward(std::uint32_t segment) const {
     const glm::dvec3 way = across(segment);
     return way / std::max(glm::length(way), 1e-300);
+}
+
+bool CrackSides::all_fold_back(const glm::dvec3& inward, const glm::dvec3& low, const glm::dvec3& high) {
+    constexpr double kRounding = 1e-9;
+    const glm::dvec3 least = glm::min(inward * low, inward * high);
+    return least.x + least.y + least.z > kCosLeastAngle + kRounding;
 }
 
 bool CrackSides::are_beside(std::uint32_t s, std::uint32_t t) const {

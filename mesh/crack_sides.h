@@ -33,10 +33,14 @@ class CrackSides {
     /// Whether two borders may be the sides of one crack, as far as their polygons say: not those of a strip or groove,
     /// with polygons between them.
     bool are_beside(std::uint32_t s, std::uint32_t t) const;
+    /// The direction from the border into its polygon.
+    glm::dvec3 inward(std::uint32_t segment) const;
+    /// Whether no border with a direction inward in a box is beside one with direction `inward`: each of their polygons
+    /// folds back over the other one. In a pile that is so of nearly all.
+    static bool all_fold_back(const glm::dvec3& inward, const glm::dvec3& low, const glm::dvec3& high);
 
   private:
     bool ends_before(std::uint32_t segment, std::uint32_t other) const;
-    glm::dvec3 inward(std::uint32_t segment) const;
     bool has_beside(std::uint32_t segment, std::uint32_t vertex) const;
     std::uint32_t apex_vertex(std::uint32_t segment) const;
     glm::dvec3 apex(std::uint32_t segment) const;

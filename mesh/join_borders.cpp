@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/interrupt.h"
+#include "mesh/point_tree.h"
 #include "mesh/vertex_clusters.h"
 
 namespace burin {
@@ -36,48 +37,58 @@ bool is_before(const Crack& a, const Crack& b) {
     return a.joins < b.joins;
 }
 
-/// Finds borders by their middles.
+/// Finds borders by their middles, directions and polygons.
 class Middles {
   public:
-    explicit Middles(const BorderIndex& borders) : borders_(borders) {
-        if (!borders.has_crowds()) return;
+    explicit Middles(const CrackSides& sides) : sides_(sides) {
+        if (!sides.mesh().borders.has_crowds()) return;
         // The boxes of borders would tell little.
-        std::vector<SegmentPiece> middles;
-        middles.reserve(borders.segments().size());
-        for (std::uint32_t i = 0; i < borders.segments().size(); ++i) {
-            const glm::vec3 middle(0.5 * (borders.segments()[i].a + borders.segments()[i].b));
-            middles.push_back({middle, middle, i});
+        std::vector<Tree::Point> points;
+        points.reserve(sides.segments().size());
+        for (std::uint32_t i = 0; i < sides.segments().size(); ++i) {
+            const Segment& s = sides.segments()[i];
+            const glm::dvec3 middle = 0.5 * (s.a + s.b), half = 0.5 * (s.b - s.a), inward = sides.inward(i);
+            points.push_back({{middle.x, middle.y, middle.z, half.x, half.y, half.z, inward.x, inward.y, inward.z}, i});
         }
-        tree_ = SegmentTree(middles);
+        tree_ = Tree(std::move(points));
     }
 
-    /// The numbers of all with a middle within `reach` of a place, and others.
-    void find(const glm::dvec3& place, double reach, std::vector<std::uint32_t>& near) const {
+    /// The numbers of all borders that may be beside one, no end of theirs farther than `reach` from one of its own,
+    /// and others.
+    void find(std::uint32_t border, double reach, std::vector<std::uint32_t>& near) const {
         near.clear();
-        if (tree_.is_empty()) return borders_.find_in_box(place - reach, place + reach, near);
-        // Middles were rounded.
-        const glm::dvec3 around = reach * (1 + 1e-6) + 1e-6 * glm::abs(place), low = place - around,
-                         high = place + around;
-        const auto may_be_near = [&](const glm::vec3& box_low, const glm::vec3& box_high) {
-            return glm::all(glm::lessThanEqual(glm::dvec3(box_low), high)) &&
-                   glm::all(glm::lessThanEqual(low, glm::dvec3(box_high)));
+        const Segment& s = sides_.segments()[border];
+        const glm::dvec3 middle = 0.5 * (s.a + s.b);
+        if (tree_.is_empty()) return sides_.mesh().borders.find_in_box(middle - reach, middle + reach, near);
+        const glm::dvec3 half = 0.5 * (s.b - s.a), inward = sides_.inward(border);
+        const double around = reach * (1 + 1e-6);
+        const auto touches = [around](const glm::dvec3& place, const glm::dvec3& low, const glm::dvec3& high) {
+            return glm::all(glm::lessThanEqual(low, place + around)) &&
+                   glm::all(glm::lessThanEqual(place - around, high));
         };
-        tree_.visit_leaves(may_be_near, [&](std::uint32_t i) {
-            near.push_back(i);
-            return true;
-        });
+        // Thousands may have one middle, as needles through a point do, and thousands lie over each other in a pile.
+        const auto may_be_near = [&](const Tree::Coordinates& low, const Tree::Coordinates& high) {
+            const auto part = [](const Tree::Coordinates& c, std::size_t k) {
+                return glm::dvec3(c[k], c[k + 1], c[k + 2]);
+            };
+            return touches(middle, part(low, 0), part(high, 0)) &&
+                   (touches(half, part(low, 3), part(high, 3)) || touches(-half, part(low, 3), part(high, 3))) &&
+                   !CrackSides::all_fold_back(inward, part(low, 6), part(high, 6));
+        };
+        tree_.visit(may_be_near, [&](std::uint32_t i) { near.push_back(i); });
     }
 
   private:
-    const BorderIndex& borders_;
-    SegmentTree tree_;
+    using Tree = PointTree<9>;
+    const CrackSides& sides_;
+    Tree tree_;
 };
 
 /// All cracks that are narrow enough, the narrowest first.
 std::vector<Crack> find_cracks(const CrackSides& sides) {
     std::vector<Crack> cracks, beside;
     std::vector<std::uint32_t> near;
-    const Middles middles(sides.mesh().borders);
+    const Middles middles(sides);
     std::vector<bool> is_in_pile(sides.segments().size());
     std::size_t asked = 0;
     for (const std::uint32_t i : sides.mesh().borders.by_place()) {
@@ -86,9 +97,8 @@ std::vector<Crack> find_cracks(const CrackSides& sides) {
         if (!(widest > 0)) continue;
         const Segment& s = sides.segments()[i];
         beside.clear();
-        // Thousands may meet at an end.
         const glm::dvec3 middle = 0.5 * (s.a + s.b);
-        middles.find(middle, widest, near);
+        middles.find(i, widest, near);
         for (const std::uint32_t j : near) {
             if (j == i) continue;
             const Segment& t = sides.segments()[j];

@@ -12,10 +12,10 @@ struct NearSegment {
     glm::dvec3 a, b;
     double margin;
 
-    bool operator()(const glm::vec3& low, const glm::vec3& high) const {
+    bool operator()(const glm::dvec3& low, const glm::dvec3& high) const {
         double begin = -kRounding, end = 1 + kRounding;  // shares of the way from a to b
         for (int k = 0; k < 3; ++k) {
-            clip(a[k], b[k], static_cast<double>(low[k]) - margin, static_cast<double>(high[k]) + margin, begin, end);
+            clip(a[k], b[k], low[k] - margin, high[k] + margin, begin, end);
         }
         return begin <= end + kRounding;
     }

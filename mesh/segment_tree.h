@@ -21,8 +21,13 @@ SegmentPiece piece_around(const glm::dvec3& low, const glm::dvec3& high, std::ui
 /// A tree of boxes around pieces of segments, to find those near a place.
 class SegmentTree {
   public:
+    /// Where boxes are cut in two: where the middles of pieces spread the most; or where they do so beside how wide
+    /// pieces are on average, since pieces of a pile of sheets lie over each other along the sheets and not across
+    /// them.
+    enum class Cut { across_longest, across_thin_boxes };
+
     SegmentTree() = default;
-    explicit SegmentTree(std::span<const SegmentPiece> pieces);
+    explicit SegmentTree(std::span<const SegmentPiece> pieces, Cut cut = Cut::across_longest);
 
     bool is_empty() const { return nodes_.empty(); }
     /// The segments of all pieces, those of pieces near each other mostly one after the other.
@@ -107,7 +112,8 @@ class SegmentTree {
             glm::max(glm::max(glm::dvec3(box.low) - p, p - glm::dvec3(box.high)), glm::dvec3(0.0));
         return glm::dot(outside, outside);
     }
-    void build(std::span<const SegmentPiece> pieces, std::uint32_t node, std::uint32_t first, std::span<Place> places);
+    void build(std::span<const SegmentPiece> pieces, const glm::vec3& weight, std::uint32_t node, std::uint32_t first,
+               std::span<Place> places);
 
     std::vector<std::uint32_t> segments_;  // of pieces
     std::vector<Node> nodes_;

@@ -8,6 +8,7 @@
 #include "base/interrupt.h"
 #include "mesh/edge_links.h"
 #include "mesh/near_segment.h"
+#include "mesh/point_tree.h"
 #include "mesh/residuals.h"
 #include "mesh/vertex_clusters.h"
 
@@ -31,45 +32,56 @@ struct Cut {
 /// Finds borders with an end where another one may be cut.
 class Corners {
   public:
-    explicit Corners(const BorderIndex& borders) : borders_(borders) {
-        if (!borders.has_crowds()) return;
-        // The boxes of borders would tell little.
-        std::vector<SegmentPiece> ends;
-        ends.reserve(2 * borders.segments().size());
-        for (std::uint32_t i = 0; i < borders.segments().size(); ++i) {
-            for (const glm::dvec3& end : {borders.segments()[i].a, borders.segments()[i].b})
-                ends.push_back(piece_around(end, end, i));
+    explicit Corners(const CrackSides& sides) : sides_(sides) {
+        if (!sides.mesh().borders.has_crowds()) return;
+        // The boxes of borders would tell little. In a pile, what lies in one place is told apart by its polygon.
+        constexpr double kInwardPart = 1.0 / 20;
+        glm::dvec3 low = sides.segments().front().a, high = low;
+        for (const Segment& s : sides.segments()) {
+            low = glm::min(low, glm::min(s.a, s.b));
+            high = glm::max(high, glm::max(s.a, s.b));
         }
-        ends_ = SegmentTree(ends);
+        const glm::dvec3 size = high - low;
+        per_inward_ = kInwardPart * std::max({size.x, size.y, size.z});
+        std::vector<Tree::Point> ends;
+        ends.reserve(2 * sides.segments().size());
+        for (std::uint32_t i = 0; i < sides.segments().size(); ++i) {
+            const glm::dvec3 inward = per_inward_ * sides.inward(i);
+            for (const glm::dvec3& end : {sides.segments()[i].a, sides.segments()[i].b})
+                ends.push_back({{end.x, end.y, end.z, inward.x, inward.y, inward.z}, i});
+        }
+        ends_ = Tree(std::move(ends));
     }
 
-    /// The numbers of borders, each once, in no order: all with an end as near as `most` to the way from a to b, but
-    /// for those whose ends are as near as `least` to a or b.
-    void find(const glm::dvec3& a, const glm::dvec3& b, double most, double least,
-              std::vector<std::uint32_t>& near) const {
+    /// The numbers of borders, some twice, in no order: all that may be beside one, with an end as near as `most` to
+    /// it, but for those whose ends are as near as `least` to its ends.
+    void find(std::uint32_t border, double most, double least, std::vector<std::uint32_t>& near) const {
         near.clear();
-        if (ends_.is_empty()) return borders_.find_in_box(glm::min(a, b) - most, glm::max(a, b) + most, near);
+        const glm::dvec3 a = sides_.segments()[border].a, b = sides_.segments()[border].b;
+        if (ends_.is_empty())
+            return sides_.mesh().borders.find_in_box(glm::min(a, b) - most, glm::max(a, b) + most, near);
         const NearSegment may_be_near{a, b, most * (1 + 1e-6)};
-        const auto is_at = [least](const glm::dvec3& place, const glm::vec3& low,
-                                   const glm::vec3& high) {  // all of a box
-            const glm::dvec3 farthest = glm::max(glm::abs(glm::dvec3(low) - place), glm::abs(glm::dvec3(high) - place));
+        const glm::dvec3 inward = sides_.inward(border) / per_inward_;
+        const auto is_at = [least](const glm::dvec3& place, const glm::dvec3& low,
+                                   const glm::dvec3& high) {  // all of a box
+            const glm::dvec3 farthest = glm::max(glm::abs(low - place), glm::abs(high - place));
             return glm::dot(farthest, farthest) < least * least * (1 - 1e-6);
         };
         // Thousands may meet at an end.
-        const auto may_cut = [&](const glm::vec3& low, const glm::vec3& high) {
-            return may_be_near(low, high) && !is_at(a, low, high) && !is_at(b, low, high);
+        const auto may_cut = [&](const Tree::Coordinates& least_of, const Tree::Coordinates& most_of) {
+            const glm::dvec3 low(least_of[0], least_of[1], least_of[2]), high(most_of[0], most_of[1], most_of[2]);
+            return may_be_near(low, high) && !is_at(a, low, high) && !is_at(b, low, high) &&
+                   !CrackSides::all_fold_back(inward, {least_of[3], least_of[4], least_of[5]},
+                                              {most_of[3], most_of[4], most_of[5]});
         };
-        ends_.visit_leaves(may_cut, [&](std::uint32_t i) {
-            near.push_back(i);
-            return true;
-        });
-        std::sort(near.begin(), near.end());
-        near.erase(std::unique(near.begin(), near.end()), near.end());
+        ends_.visit(may_cut, [&](std::uint32_t i) { near.push_back(i); });
     }
 
   private:
-    const BorderIndex& borders_;
-    SegmentTree ends_;
+    using Tree = PointTree<6>;
+    const CrackSides& sides_;
+    double per_inward_ = 1;  // by which directions become lengths
+    Tree ends_;
 };
 
 /// Cuts of one border, in order along it.
@@ -80,7 +92,7 @@ void find_cuts(const CrackSides& sides, const Corners& corners, std::uint32_t i,
     if (!(most > 0)) return;
     const glm::dvec3 a = s.a, b = s.b, along = (b - a) / length;
     const double least = std::min(most, kNearestPart * length);
-    corners.find(a, b, most, least, near);
+    corners.find(i, most, least, near);
     const std::size_t first = cuts.size();
     for (const std::uint32_t j : near) {
         const Segment& t = sides.segments()[j];
@@ -162,7 +174,7 @@ std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach) {
     const CrackSides sides(mesh, reach);
     // A corner cuts one border or two. Where there are many more, borders lie in a pile.
     const std::size_t most_cuts = 16 * sides.segments().size();
-    const Corners corners(mesh.borders);
+    const Corners corners(sides);
     std::vector<Cut> cuts;
     std::vector<std::uint32_t> near;
     std::size_t asked = 0;

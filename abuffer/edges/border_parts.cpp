@@ -70,6 +70,7 @@ std::vector<BorderPart> parts_of_border(const ScreenSurfaces& screen, SurfaceId 
                                         const EdgeOnScreen& edge) {
     throw_if_interrupted();  // in a crowd each takes long
     const Mesh& mesh = screen.surfaces().mesh_of(s);
+    if (!mesh.borders.has_partners()) return {{}};
     BorderIndex::SeamCandidates about, near;
     const std::size_t most_about =
         std::max(kMostBorderPairs / std::max(mesh.borders.segments().size(), std::size_t{1}), kFewAbout);

@@ -358,14 +358,15 @@ class FineLines::BlockClipper {
 };
 
 FineLines::FineLines(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins,
-                     const TileKernels& kernels, PixelRect region, bool draws_each)
+                     const TileKernels& kernels, PixelRect region, bool draws_each, KnownBorders& known_borders)
     : screen_(screen),
       draws_each_(draws_each),
       grid_(samples_per_pixel_of(frame)),
       // The last blocks reach half a sample beyond the region (SampleBlocks).
       finder_(frame, screen, {region.x0, region.y0, region.x1 + 1, region.y1 + 1}, kHasBothOfSeam),
       blocks_(screen, bins, kernels, samples_per_pixel_of(frame)),
-      clipper_(std::make_unique<BlockClipper>(screen, finder_, kernels, frame.criteria)) {}
+      clipper_(std::make_unique<BlockClipper>(screen, finder_, kernels, frame.criteria)),
+      known_borders_(known_borders) {}
 
 FineLines::~FineLines() = default;
 
@@ -437,7 +438,6 @@ void FineLines::find_candidates(std::span<const FinePart> parts) {
 
 /// The lines that an edge is; they are good until the next call.
 std::span<const WholeLine> FineLines::lines_of(std::uint32_t instance, HalfEdge h) {
-    constexpr std::size_t kKnownBorders = 1 << 17;
     const SurfaceId s{instance, h / 3};
     if (is_loose({instance, h})) {
         lines_.clear();
@@ -449,15 +449,8 @@ std::span<const WholeLine> FineLines::lines_of(std::uint32_t instance, HalfEdge 
         finder_.find(s, h, lines_);
         return lines_;
     }
-    if (known_borders_.empty()) known_borders_.resize(kKnownBorders);
-    KnownBorder& known = known_borders_[(h + 7919 * instance) % kKnownBorders];
-    if (known.half_edge != h || known.instance != instance) {
-        known.instance = instance;
-        known.half_edge = h;
-        known.lines.clear();
-        finder_.find(s, h, known.lines);
-    }
-    return known.lines;
+    known_borders_.lines_of(instance, h, lines_, [&](std::vector<WholeLine>& lines) { finder_.find(s, h, lines); });
+    return lines_;
 }
 
 }  // namespace burin

@@ -6,6 +6,7 @@
 
 #include "abuffer/edges/edge_lines.h"
 #include "abuffer/fine/fine_blocks.h"
+#include "abuffer/fine/known_borders.h"
 #include "lines/line_piece.h"
 #include "render/frame.h"
 
@@ -19,9 +20,9 @@ namespace burin {
 class FineLines {
   public:
     /// `region`: of `bins`, which must have kept thin triangles. `draws_each`: also edges behind others on the same
-    /// line of the picture, which dashes and smooth contours need.
+    /// line of the picture, which dashes and smooth contours need. `known_borders`: shared by the threads of a pass.
     FineLines(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins, const TileKernels& kernels,
-              PixelRect region, bool draws_each);
+              PixelRect region, bool draws_each, KnownBorders& known_borders);
     ~FineLines();
 
     /// Adds what is visible of the parts that are lines, all of one tile.
@@ -44,13 +45,7 @@ class FineLines {
     std::unique_ptr<BlockClipper> clipper_;
     std::vector<FineCandidate> candidates_;
     std::vector<WholeLine> lines_;
-    /// What was found for borders: long ones are in many tiles, and may have many others beside them.
-    struct KnownBorder {
-        std::uint32_t instance = 0;
-        HalfEdge half_edge = kNoHalfEdge;
-        std::vector<WholeLine> lines;
-    };
-    std::vector<KnownBorder> known_borders_;
+    KnownBorders& known_borders_;
 };
 
 }  // namespace burin

@@ -22,6 +22,7 @@ bool FlushCover::is_covered(const NeighbourSamples& pair, glm::ivec2 block) {
     if (!are_flush(first, second, pair.place(0.5))) return false;
     const std::vector<Face>& faces = faces_from(block);
     covered_.clear();
+    const double slack = kNegligibleSubpixels / pair.pitch;
     const glm::ivec2 low(pair.x, pair.y),
         high = low + (pair.down ? glm::ivec2(0, pair.pitch) : glm::ivec2(pair.pitch, 0));
     for (const Face& face : faces) {
@@ -29,10 +30,11 @@ bool FlushCover::is_covered(const NeighbourSamples& pair, glm::ivec2 block) {
         const Interval part = part_within(pair, face.surface);
         if (!(part.begin < part.end)) continue;
         const glm::dvec2 middle = pair.place(0.5 * (part.begin + part.end));
-        if (are_flush(face.surface, first, middle) || are_flush(face.surface, second, middle)) covered_.push_back(part);
+        if (!are_flush(face.surface, first, middle) && !are_flush(face.surface, second, middle)) continue;
+        if (part.begin <= slack && part.end + slack >= 1) return true;  // by itself: in a heap nearly all are so
+        covered_.push_back(part);
     }
     std::sort(covered_.begin(), covered_.end(), [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
-    const double slack = kNegligibleSubpixels / pair.pitch;
     double reached = 0;
     for (const Interval& part : covered_) {
         if (part.begin > reached + slack) return false;

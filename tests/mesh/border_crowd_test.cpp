@@ -231,6 +231,11 @@ TEST(BorderCrowd, OnePolygonHasNoPartners) {
     for (HalfEdge h = 0; h < 100; ++h) segments.push_back({h, 7, {0, 0, 0}, {1, 0, 0}});
     EXPECT_EQ(BorderIndex(segments).reach_part(), 0);
     EXPECT_EQ(BorderIndex(segments).seam_partner(0, {0.5, 0, 0}), std::nullopt);
+    EXPECT_FALSE(BorderIndex(segments).has_partners());
+    // What is around one place tells of all others.
+    const auto answer = BorderIndex(segments).neighbourhood(0, {0.5, 0, 0}).partner_at({-40, 0, 0});
+    EXPECT_TRUE(answer.has_answer);
+    EXPECT_EQ(answer.partner, std::nullopt);
 }
 
 /// Boxes of short segments tell enough by themselves.
