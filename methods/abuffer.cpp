@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
+#include <span>
+#include <string>
 #include <utility>
 
 #include "abuffer/edges/intersecting_pairs.h"
 #include "abuffer/edges/intersection_lines.h"
 #include "abuffer/line_finder.h"
+#include "base/limit_error.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "lines/sharp_edges.h"
@@ -26,6 +30,24 @@ LineCriteria fading_criteria_of(const LineSettings& lines) {
     LineCriteria criteria = criteria_of(lines);
     criteria.cos_crease_angle = std::cos(glm::radians(lines.crease_fade().from_deg));
     return criteria;
+}
+
+/// What a piece of a line takes with a style sheet, as part of a run with all that is known there and as ink: more than
+/// with any sheet that the program brings along (docs/performance/memory.md).
+constexpr std::uint64_t kBytesPerInkedPiece = 1000;
+
+/// Lines with a style sheet are all kept, with their ink, until they are drawn. How many there are is known only now.
+void check_ink_fits(const LineDrawing& drawing, std::uint64_t cap_bytes) {
+    if (cap_bytes == 0) return;
+    std::uint64_t pieces = 0;
+    for (const LineDrawing::Lists& lists : {drawing.visible(), drawing.behind()}) {
+        for (const std::span<const LinePiece> list : lists) pieces += list.size();
+    }
+    const std::uint64_t least = pieces * kBytesPerInkedPiece;
+    if (least > cap_bytes) {
+        throw LimitError("this picture takes at least " + std::to_string((least >> 20) + 1) +
+                         "M with a style sheet; give that or more, or draw fewer lines");
+    }
 }
 
 Frame with_fading_creases(Frame frame) {
@@ -100,6 +122,7 @@ FoundLines find_styled_lines(const Frame& given, const RunOptions& options, Film
     const Frame frame = with_fading_creases(given);
     LineDrawing drawing;
     find_lines(frame, options, film, drawing, nullptr, stats);
+    check_ink_fits(drawing, options.memory_bytes);
     Stopwatch watch;
     FoundLines lines = found_lines(std::move(drawing), frame, stats.threads);
     stats.lines_s += watch.lap();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -219,6 +220,25 @@ TEST_F(Render, TooLittleMemoryIsRefusedWithTheLeast) {
     EXPECT_EQ(
         run_burin(folder_.path(), {"render", "scene.toml", "-o", "little.exr", "-j", "1", "--memory", least}).status, 0)
         << least;
+}
+
+TEST_F(Render, LinesOfASheetCountAgainstTheCapForMemory) {
+    folder_.write("fine.toml",
+                  "[camera]\neye = [0, 0, 3]\nfov = 20\n[[object]]\nshape = \"sphere\"\nsegments = 400\nrings = 200\n");
+    const auto render = [&](const std::string& cap, const std::string& style) {
+        return run_burin(folder_.path(), {"render", "fine.toml", "-o", "fine.exr", "-j", "1", "-r", "640x480",
+                                          "--memory", cap, "--style", style});
+    };
+    // Only the outline, then all edges of the mesh.
+    EXPECT_EQ(render("30M", "comic").status, 0);
+    std::filesystem::remove(folder_.path() + "/fine.exr");
+    const ProgramResult result = render("30M", "wireframe");
+    EXPECT_EQ(result.status, 1);
+    const std::string words = "fine.toml: --memory: this picture takes at least ";
+    ASSERT_EQ(result.err.find(words), 0u) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() + "/fine.exr"));
+    const std::string least = result.err.substr(words.size(), result.err.find(' ', words.size()) - words.size());
+    EXPECT_EQ(render(least, "wireframe").status, 0) << least;
 }
 
 TEST_F(Render, ACropOfAPngLiesOnPaper) {
