@@ -117,6 +117,7 @@ std::string hello_answer(const ViewedScene& scene, const Look& look, const Style
     json.key("name").value(scene.name());
     write_point(json, "low", scene.box().low);
     write_point(json, "high", scene.box().high);
+    write_point(json, "axis", scene.axis());
     json.key("classes").begin_array();
     for (const std::string_view name : kLineClassNames) json.value(name);
     json.end_array();

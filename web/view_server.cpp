@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "web/gatekeeper.h"
 #include "web/view_session.h"
 
@@ -299,6 +300,7 @@ void ViewServer::run() {
     inner_->signals.async_wait([this](error_code error, int) {
         if (!error) inner_->close_all();
     });
+    if (interrupt_requested()) return;  // a signal that came before this one listened
     inner_->accept();
     inner_->io.run();
 }

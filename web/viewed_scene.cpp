@@ -85,6 +85,11 @@ View ViewedScene::view_of(const CameraSettings& settings, int width, int height)
     return view;
 }
 
+glm::dvec3 ViewedScene::axis() const {
+    const glm::dvec3 y(0, 1, 0);
+    return first_camera_.to_world ? y : first_camera_.up.value_or(y);
+}
+
 View ViewedScene::home(int width, int height) const { return view_of(first_camera_, width, height); }
 
 View ViewedScene::fitted(const View& view) const {

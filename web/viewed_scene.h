@@ -30,6 +30,8 @@ class ViewedScene {
     const std::vector<std::string>& notes() const { return notes_; }
     int threads() const { return threads_; }
     const Box& box() const { return box_; }
+    /// What turning keeps upright: the camera's `up`, or Y where the camera comes from a model and may be rolled.
+    glm::dvec3 axis() const;
     /// The scene's own view for a picture of this size. Throws InputError.
     View home(int width, int height) const;
     /// A view in the direction of another one that the scene fills. Throws InputError.

@@ -4,9 +4,11 @@
     view_browser_test.py BURIN FOLDER    screenshots are left in FOLDER
 """
 import base64
+import json
 import os
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -106,6 +108,13 @@ def start(burin, scene, *more):
     return server, url
 
 
+def test_signal_at_once(burin, scene):
+    for number in (signal.SIGTERM, signal.SIGINT) * 8:
+        server, _ = start(burin, scene)
+        server.send_signal(number)
+        check(server.wait(timeout=10) == 0, "a signal ends it that comes right after the address")
+
+
 def test_view(page):
     page.changes(lambda: page.drag(160, 60), "dragging turns the scene")
     page.changes(lambda: page.drag(60, 20, button=2), "dragging with the right button moves it")
@@ -120,6 +129,41 @@ def test_view(page):
     browser.keys("\ue00c")
     browser.wait_until("!document.querySelector('#help').open", "Escape hides them")
     page.changes(lambda: page.click("#home"), "Home is the first view")
+    page.settle()
+    home, address = page.picture(), browser.run("return location.hash")
+    page.changes(lambda: page.drag(90, 30), "it is turned once more")
+    browser.run("location.hash = arguments[0]", address)
+    browser.wait_until(f"{PICTURE} === arguments[0]", "an address that is put over this one is followed", home)
+    for _ in range(40):
+        page.wheel(-500)
+    page.settle()
+    check(browser.run("return document.querySelector('#toast').hidden"), "the zoom ends before the eye is at the target")
+    page.changes(lambda: page.click("#home"), "Home is the first view again")
+
+
+def test_rolled_camera(page, burin, scratch):
+    """Whatever the roll of a model's camera, the scene is turned around its own vertical."""
+    corners = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
+    model = os.path.join(scratch, "rolled.gltf")
+    with open(model, "w") as file:
+        json.dump({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+                   "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0.3, 0.3, 4], "rotation": [0, 0, 0.2588, 0.9659]}],
+                   "cameras": [{"type": "perspective", "perspective": {"yfov": 0.6, "znear": 0.1}}],
+                   "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+                   "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,"
+                                + base64.b64encode(corners).decode()}],
+                   "bufferViews": [{"buffer": 0, "byteLength": 36}],
+                   "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                                  "min": [0, 0, 0], "max": [1, 1, 0]}]}, file)
+    server, url = start(burin, model)
+    try:
+        page.open(url)
+        browser = page.browser
+        page.changes(lambda: page.drag(40, 10), "the first drag turns it")
+        browser.wait_until("new URLSearchParams(location.hash.slice(1)).get('up') === '0,1,0'", "it stands upright")
+    finally:
+        server.terminate()
+        check(server.wait(timeout=10) == 0, "SIGTERM ends it with 0")
 
 
 def test_looks(page):
@@ -280,6 +324,7 @@ def main():
         scene = os.path.join(scratch, "scene.toml")
         with open(scene, "w") as file:
             file.write(SCENE)
+        test_signal_at_once(burin, scene)
         server, url = start(burin, scene)
         browser = Browser(scratch, 1366, 820)
         browser.post("/goog/cdp/execute", cmd="Browser.setDownloadBehavior",
@@ -302,6 +347,7 @@ def main():
         print(f"ended {1000 * (time.time() - began):.0f} ms after SIGTERM")
         browser.wait_until("document.body.dataset.ended === 'yes'", "the page says so")
         test_two_pages(browser, burin, scene, folder)
+        test_rolled_camera(page, burin, scratch)
         print("burin view works in", browser.run("return navigator.userAgent"))
     finally:
         if browser:

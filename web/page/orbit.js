@@ -8,14 +8,18 @@ const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a
 const length = a => Math.hypot(...a);
 const normalized = a => scaled(a, 1 / (length(a) || 1));
 const steepest = 89.9 * Math.PI / 180;
+/** The least distance of the eye from the target, as a part of the size of the scene and of its place. */
+const nearest = 1e-5;
 /** As many digits as a picture needs: short in addresses and command lines. */
-const digits = 7;
+const digits = 8;
 const rounded = x => Number(x.toPrecision(digits));
 
 export class Orbit {
-  constructor() {
+  /** Turns around a place of a scene of such a size, with an axis that stays upright. */
+  constructor(axis, sceneSize) {
     this.target = [0, 0, 0];
-    this.up = [0, 1, 0];
+    this.up = normalized(axis);
+    this.sceneSize = sceneSize;
     this.yaw = 0;
     this.pitch = 0;
     this.distance = 1;
@@ -46,9 +50,8 @@ export class Orbit {
     return 2 * this.distance * Math.tan(this.fov * Math.PI / 360);
   }
 
-  /** Takes a view as the server sends it. */
+  /** Takes a view as the server sends it. If its camera is rolled, that is seen until something moves. */
   take({eye, target, up, fov, height}) {
-    this.up = normalized(up);
     this.fov = fov;
     this.isOrthographic = height !== null && height !== undefined;
     this.target = [...target];
@@ -106,7 +109,8 @@ export class Orbit {
   zoom(factor, right = 0, down = 0) {
     this.taken = null;
     const before = this.seenHeight;
-    this.distance = Math.max(1e-9, Math.min(1e12, this.distance * factor));
+    const least = nearest * (this.sceneSize + length(this.target)) || Number.MIN_VALUE;
+    this.distance = Math.max(Math.min(least, this.distance), Math.min(1e12, this.distance * factor));
     const change = before - this.seenHeight;
     const {right: x, above: y} = this.axes;
     this.target = sum(this.target, scaled(x, right * change), scaled(y, -down * change));

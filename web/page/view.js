@@ -6,8 +6,7 @@ import {SceneView} from "./scene_view.js";
 
 const $ = selector => document.querySelector(selector);
 const canvas = $("#picture");
-const orbit = new Orbit();
-let panel = null, view = null, toastTimer = 0, addressTimer = 0;
+let orbit = null, panel = null, view = null, toastTimer = 0, addressTimer = 0;
 let fittedBy = "";  // the kind of view that is shown as the server has fitted it to the size of the picture
 
 function toast(text, isFault = false) {
@@ -65,7 +64,7 @@ function readAddress() {
 
 function viewChanged() {
   // Many times a second: what is the same already is left alone, for a browser lays out what is set.
-  if (!$("#mark").hidden) $("#mark").hidden = true;
+  if (!$("#mark").hidden) closeExplained();  // it is of the view before
   const projection = orbit.isOrthographic ? "Parallel" : "Perspective";
   if ($("#projection").textContent !== projection) $("#projection").textContent = projection;
   view.viewChanged();
@@ -154,7 +153,7 @@ function listenToKeys() {
     if (event.ctrlKey || event.metaKey || event.altKey || $("#help").open) return;
     const isControl = event.target.matches("input, select, textarea, #panel button");
     const arrow = arrows[event.key];
-    if (arrow && isControl) return;
+    if ((arrow || ["Home", "End", "PageUp", "PageDown"].includes(event.key)) && isControl) return;
     const key = event.key.toLowerCase();
     if (arrow && event.shiftKey) orbit.pan(-arrow[0] * part, -arrow[1] * part);
     else if (arrow) orbit.turn(arrow[0] * step, arrow[1] * step);
@@ -253,9 +252,22 @@ function showNotes(notes) {
   $("#notes ul").replaceChildren(...notes.map(note => Object.assign(document.createElement("li"), {textContent: note})));
 }
 
+/** Shows what the address says: a reload, a bookmark or an address pasted over this one. */
+async function followAddress() {
+  const {camera, look} = readAddress();
+  panel.restore(look ?? {});
+  view.look = panel.look;
+  view.lookWaits = true;
+  if (!camera) return takeView("home");
+  fittedBy = "";
+  orbit.take(camera);
+  viewChanged();
+}
+
 async function begin(connection, hello) {
   document.title = `${hello.name} – burin view`;
   $("#name").textContent = hello.name;
+  orbit = new Orbit(hello.axis, Math.hypot(...hello.high.map((x, i) => x - hello.low[i])));
   panel = new Panel(hello, lookChanged);
   view = new SceneView(canvas, connection, orbit, {
     onShown: shown,
@@ -263,18 +275,8 @@ async function begin(connection, hello) {
     onLook: sheet => panel.takeSheet(sheet),
   });
   showNotes(hello.notes);
-  const {camera, look} = readAddress();
-  if (look) {
-    panel.restore(look);
-    view.look = panel.look;
-    view.lookWaits = true;
-  }
-  if (camera) {
-    orbit.take(camera);
-    viewChanged();
-  } else {
-    await takeView("home");
-  }
+  await followAddress();
+  addEventListener("hashchange", followAddress);
   listenToPointers();
   listenToKeys();
   new ResizeObserver(sizeChanged).observe($("#paper"));
