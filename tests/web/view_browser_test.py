@@ -166,22 +166,33 @@ def test_rolled_camera(page, burin, scratch):
         check(server.wait(timeout=10) == 0, "SIGTERM ends it with 0")
 
 
+SET_VALUE = "const e = document.querySelector(arguments[0]); e.value = arguments[1];" \
+            "e.dispatchEvent(new Event(e.type === 'range' ? 'input' : 'change', {bubbles: true}))"
+
+
 def test_looks(page):
     browser = page.browser
     page.changes(lambda: page.click("[data-lines=silhouette]"), "a click takes silhouettes away")
     page.changes(lambda: page.click("[data-lines=silhouette]"), "and brings them back")
     page.changes(lambda: page.click("#hidden [value=none]"), "hidden lines can be left out")
-    set_value = "const e = document.querySelector(arguments[0]); e.value = arguments[1];" \
-                "e.dispatchEvent(new Event(e.type === 'range' ? 'input' : 'change', {bubbles: true}))"
-    page.changes(lambda: browser.run(set_value, "#width", "0.8"), "the slider makes lines wider")
-    page.changes(lambda: browser.run(set_value, "#shading", "lambert"), "surfaces can be shaded")
-    page.changes(lambda: browser.run(set_value, "#style", "comic"), "a style is chosen")
+    page.changes(lambda: browser.run(SET_VALUE, "#width", "0.8"), "the slider makes lines wider")
+    page.changes(lambda: browser.run(SET_VALUE, "#shading", "lambert"), "surfaces can be shaded")
+    page.changes(lambda: browser.run(SET_VALUE, "#style", "comic"), "a style is chosen")
     check(browser.run("return document.querySelector('[data-lines=crease]').disabled"),
           "classes are the style's then")
     slider = "#parameters [data-name=width] input[type=range]"
     browser.wait_until(f"document.querySelector('{slider}')", "the style's parameters have sliders")
     x, y = center_of(browser, slider)
     page.changes(lambda: browser.mouse(at((x, y)), PRESS, at((x + 25, y)), RELEASE), "a parameter's slider changes it")
+    page.settle()
+    before, number = page.picture(), "#parameters [data-name=width] input[type=number]"
+    had = browser.run("return document.querySelector(arguments[0]).value", number)
+    browser.run(SET_VALUE, number, "-5")
+    browser.wait_until("document.querySelector('#toast').textContent === 'width: must be at least 0, got -5'", "it is refused")
+    browser.wait_until(f"document.querySelector('{number}').value === arguments[0]", "the value before comes back", had)
+    page.settle()
+    check(page.picture() == before, "the picture stays as it was")
+    page.changes(lambda: browser.mouse(at((x + 25, y)), PRESS, at((x + 10, y)), RELEASE), "later changes are drawn")
 
 
 def test_sheet(page):
@@ -219,6 +230,12 @@ def test_sheet(page):
     browser.wait_until("document.querySelector('.fault-text').hidden", "and mended")
     check(page.picture() != good, "an edited sheet draws at once")
     page.click("#edit")
+    page.settle()
+    kept = browser.run(f"return {area}.value")
+    browser.run("document.activeElement.blur()")
+    page.changes(lambda: browser.run(SET_VALUE, "#style", "pencil"), "another style is chosen")
+    page.changes(lambda: browser.run(SET_VALUE, "#style", "comic"), "and the first one again")
+    check(browser.run(f"return {area}.value") == kept, "what was typed into it is there")
 
 
 def test_explain(page):

@@ -24,10 +24,13 @@ function scaleOf({value, min, max}) {
 const shown = x => String(Number(Number(x).toPrecision(3)));
 
 export class Panel {
-  /** `onLook`: gets the look when it has changed. */
-  constructor(hello, onLook) {
+  /** `onLook`: gets the look when it has changed; `say`: shows a text for a while. */
+  constructor(hello, onLook, say) {
     this.hello = hello;
     this.onLook = onLook;
+    this.say = say;
+    this.edited = {};    // by style: the text that was made of it
+    this.accepted = {};  // parameters that the sheet has taken
     this.look = structuredClone(hello.look);
     this.sheet = hello.sheet;
     this.editor = new SheetEditor($("#editor"), text => this.change({sheet: text === this.textOfStyle() ? "" : text}));
@@ -83,14 +86,32 @@ export class Panel {
   }
 
   listen() {
-    $("#style").onchange = event => this.change({style: event.target.value, sheet: "", parameters: {}});
+    $("#style").onchange = event => this.chooseStyle(event.target.value);
     $("#width").oninput = event => this.change({width: Number((0.25 * 64 ** event.target.value).toPrecision(3))});
     $("#crease").oninput = event => this.change({crease_angle: Number(event.target.value)});
     for (const button of document.querySelectorAll("#hidden button"))
       button.onclick = () => this.change({hidden: button.value});
     $("#shading").onchange = event => this.change({shading: event.target.value});
     $("#edit").onclick = () => this.toggleEditor();
-    $("#reset").onclick = () => this.change(structuredClone(this.hello.look));
+    $("#reset").onclick = () => this.reset();
+  }
+
+  /** What was typed into the sheet before comes back when its style is chosen again. */
+  chooseStyle(style) {
+    this.keepEdited();
+    this.change({style, sheet: this.edited[style] ?? "", parameters: {}});
+  }
+
+  keepEdited() {
+    if (this.look.sheet) this.edited[this.look.style] = this.look.sheet;
+    else delete this.edited[this.look.style];
+  }
+
+  reset() {
+    this.keepEdited();
+    if (Object.keys(this.edited).length > 0 && !confirm("What you changed in style sheets will be lost.")) return;
+    this.edited = {};
+    this.change(structuredClone(this.hello.look));
   }
 
   toggleEditor(isShown = $("#editor").hidden) {
@@ -131,6 +152,7 @@ export class Panel {
   /** Takes what the server says of the sheet in use; null: none is. */
   takeSheet(sheet) {
     this.sheet = sheet;
+    this.accepted = {...this.look.parameters};
     this.editor.showFault(null);
     this.update();
   }
@@ -144,10 +166,27 @@ export class Panel {
       this.change({parameters});
       return true;
     }
+    const refused = fault.message.match(/^--set style\.([^=]+)=(.*?): (?:.*value: )?(.*)$/);
+    if (refused && refused[1] in this.look.parameters) {
+      this.takeBack(refused[1]);
+      this.say(`${refused[1].replaceAll("_", " ")}: ${refused[3]}`, true);
+      return true;
+    }
     if (!this.hasSheet() || (!fault.line && !this.look.sheet)) return false;
     if ($("#editor").hidden) this.toggleEditor(true);
     this.editor.showFault(fault);
     return true;
+  }
+
+  /** Gives a parameter the value again that it had before it was refused. */
+  takeBack(name) {
+    const parameters = {...this.look.parameters};
+    delete parameters[name];
+    if (name in this.accepted) parameters[name] = this.accepted[name];
+    const row = [...$("#parameters").children].find(r => r.dataset.name === name);
+    const had = this.sheet?.parameters?.find(p => p.name === name);
+    if (row && had) row.show(had);
+    this.change({parameters});
   }
 
   updateSheet(sheet) {

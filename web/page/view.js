@@ -268,7 +268,7 @@ async function begin(connection, hello) {
   document.title = `${hello.name} – burin view`;
   $("#name").textContent = hello.name;
   orbit = new Orbit(hello.axis, Math.hypot(...hello.high.map((x, i) => x - hello.low[i])));
-  panel = new Panel(hello, lookChanged);
+  panel = new Panel(hello, lookChanged, toast);
   view = new SceneView(canvas, connection, orbit, {
     onShown: shown,
     onFailed: answer => panel.showFault(answer) || toast(answer.message, true),
