@@ -326,7 +326,12 @@ void put_command_first(const CLI::App& app, std::vector<std::string>& arguments)
         std::find_if(rest.begin(), rest.end(), [](const std::string& r) { return r.size() > 1 && r[0] == '-'; });
     const std::string help =
         "; burin " + (commands.empty() ? "" : command.get_name() + " ") + "--help lists the options";
-    if (unknown == rest.end()) throw UsageError("'" + printable(rest.front()) + "': one input is enough" + help);
+    if (unknown == rest.end()) {
+        const auto all = command.get_options();
+        const bool takes_input = std::any_of(all.begin(), all.end(), [](const auto* o) { return o->get_positional(); });
+        const std::string why = takes_input ? "one input is enough" : "burin " + command.get_name() + " takes no input";
+        throw UsageError("'" + printable(rest.front()) + "': " + why + help);
+    }
     const std::string name = unknown->substr(0, unknown->find('='));
     if (command.get_name() == "restyle") refuse_option_of_view(name);
     std::vector<std::string> known;

@@ -95,6 +95,7 @@ TEST_F(Usage, UnknownNames) {
     expect_bad_options({"-Z"}, "-Z");
     expect_bad_options({"3", "--line-widht"}, "unknown option '--line-widht'; did you mean '--line-width'?");
     expect_bad_options({"another.obj"}, "'another.obj': one input is enough");
+    expect_refused({"methods", "another.obj"}, "'another.obj': burin methods takes no input");
     for (const char* output : {"a.jpg", "a.gif", "a.", "a.exr.bak"}) {
         expect_refused({"render", "cube.obj", "-o", output}, "--output: unknown kind of image");
     }
