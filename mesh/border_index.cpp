@@ -141,7 +141,14 @@ BorderIndex::BorderIndex(std::vector<Segment> segments) : segments_(std::move(se
     all.reserve(segments_.size());
     for (std::uint32_t i = 0; i < segments_.size(); ++i) all.push_back(whole_of(segments_[i], i));
     whole_ = SegmentTree(all);
-    if (is_crowded()) pieces_ = SegmentTree(pieces_of(segments_), SegmentTree::Cut::across_thin_boxes);
+    if (is_crowded()) {
+        pieces_ = SegmentTree(pieces_of(segments_), SegmentTree::Cut::across_thin_boxes);
+        std::vector<PointTree<6, float>::Point> boxes;
+        boxes.reserve(all.size());
+        for (const SegmentPiece& p : all)
+            boxes.push_back({{p.low.x, p.low.y, p.low.z, p.high.x, p.high.y, p.high.z}, p.segment});
+        boxes_ = PointTree<6, float>(std::move(boxes));
+    }
     reach_part_ = has_several_polygons() ? (has_crowds() ? reach_part_in_crowd() : kWidestReachPart) : 0;
 }
 
@@ -201,10 +208,21 @@ const BorderIndex::Segment* BorderIndex::find(HalfEdge half_edge) const {
 }
 
 void BorderIndex::find_in_box(const glm::dvec3& low, const glm::dvec3& high, std::vector<std::uint32_t>& found) const {
-    whole_.visit_leaves(TouchedBox{low, high}, [&](std::uint32_t i) {
+    visit_boxes(low, high, [&](std::uint32_t i) {
         found.push_back(i);
         return true;
     });
+}
+
+/// Calls visit(number) for all segments whose boxes touch a box, and for some beside it, until it says false.
+template <typename Visit>
+void BorderIndex::visit_boxes(const glm::dvec3& low, const glm::dvec3& high, const Visit& visit) const {
+    if (boxes_.is_empty()) return whole_.visit_leaves(TouchedBox{low, high}, visit);
+    using Coordinates = PointTree<6, float>::Coordinates;
+    const auto may_touch = [touches = TouchedBox{low, high}](const Coordinates& least, const Coordinates& most) {
+        return touches({least[0], least[1], least[2]}, {most[3], most[4], most[5]});
+    };
+    boxes_.visit(may_touch, visit);
 }
 
 std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm::dvec3& at) const {
@@ -326,7 +344,7 @@ bool BorderIndex::find_candidates(HalfEdge half_edge, std::size_t most, SeamCand
     const double margin = candidates.reach_ * (1 + 1e-6);
     const TouchedBox may_be_near{glm::min(own->a, own->b) - margin, glm::max(own->a, own->b) + margin};
     std::size_t count = 0;
-    whole_.visit_leaves(may_be_near, [&](std::uint32_t i) {
+    visit_boxes(may_be_near.low, may_be_near.high, [&](std::uint32_t i) {
         const Segment& other = segments_[i];
         if (!may_be_near(glm::min(other.a, other.b), glm::max(other.a, other.b))) return true;
         if (++count > most) return false;

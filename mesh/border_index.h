@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/point_tree.h"
 #include "mesh/segment_tree.h"
 
 // Walks over seams, and the closing of cracks, ask which borders are near a place.
@@ -92,6 +93,8 @@ class BorderIndex {
     struct Nearest;
     void find_nearest(const Segment& own, const glm::dvec3& at, Nearest& nearest) const;
     bool is_crowded() const;
+    template <typename Visit>
+    void visit_boxes(const glm::dvec3& low, const glm::dvec3& high, const Visit& visit) const;
     bool has_several_polygons() const;
     double reach_part_in_crowd() const;
     const SegmentTree& finest() const { return pieces_.is_empty() ? whole_ : pieces_; }
@@ -99,6 +102,9 @@ class BorderIndex {
     std::vector<Segment> segments_;  // by half-edge
     double reach_part_ = 0;          // how near a partner must be, in lengths of the edge
     SegmentTree whole_;              // of whole segments
+    /// The lowest and the highest corner of the box around each segment, by which boxes that lie over each other are
+    /// told apart, as those of needles through a point, which all have one middle. Empty where pieces_ is.
+    PointTree<6, float> boxes_;
     SegmentTree pieces_;  // of short pieces, where boxes around whole ones lie over each other by the dozen; else empty
 };
 

@@ -75,7 +75,10 @@ class Middles {
                    (touches(half, part(low, 3), part(high, 3)) || touches(-half, part(low, 3), part(high, 3))) &&
                    !CrackSides::all_fold_back(inward, part(low, 6), part(high, 6));
         };
-        tree_.visit(may_be_near, [&](std::uint32_t i) { near.push_back(i); });
+        tree_.visit(may_be_near, [&](std::uint32_t i) {
+            near.push_back(i);
+            return true;
+        });
     }
 
   private:

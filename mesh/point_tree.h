@@ -14,12 +14,12 @@
 
 namespace burin {
 
-/// A tree of boxes around points of `kCoordinates` numbers each. It is cut where points spread the most, so numbers of
-/// different kinds must come in units that compare.
-template <std::size_t kCoordinates>
+/// A tree of boxes around points of `kCoordinates` numbers each, held as `Number`. It is cut where points spread the
+/// most, so numbers of different kinds must come in units that compare.
+template <std::size_t kCoordinates, typename Number = double>
 class PointTree {
   public:
-    using Coordinates = std::array<double, kCoordinates>;
+    using Coordinates = std::array<Number, kCoordinates>;
     struct Point {
         Coordinates at;
         std::uint32_t number;
@@ -35,7 +35,8 @@ class PointTree {
 
     bool is_empty() const { return nodes_.empty(); }
 
-    /// Calls visit(number) for all points in boxes that may_be_near(low, high), and for some beside them.
+    /// Calls visit(number) for all points in boxes that may_be_near(low, high), and for some beside them, until it says
+    /// false.
     template <typename MayBeNear, typename Visit>
     void visit(const MayBeNear& may_be_near, const Visit& visit) const {
         if (nodes_.empty()) return;
@@ -50,7 +51,9 @@ class PointTree {
                 stack[top++] = node.first + 1;
                 continue;
             }
-            for (std::uint32_t i = node.first; i < node.first + node.count; ++i) visit(points_[i].number);
+            for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+                if (!visit(points_[i].number)) return;
+            }
         }
     }
 

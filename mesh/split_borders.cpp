@@ -74,7 +74,10 @@ class Corners {
                    !CrackSides::all_fold_back(inward, {least_of[3], least_of[4], least_of[5]},
                                               {most_of[3], most_of[4], most_of[5]});
         };
-        ends_.visit(may_cut, [&](std::uint32_t i) { near.push_back(i); });
+        ends_.visit(may_cut, [&](std::uint32_t i) {
+            near.push_back(i);
+            return true;
+        });
     }
 
   private:

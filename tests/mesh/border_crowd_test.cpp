@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "mesh/border_index.h"
@@ -182,6 +183,58 @@ TEST(BorderCrowd, NearOnesAreAllThatMayBePartnersAnywhere) {
     }
     EXPECT_GT(few, 100);
     EXPECT_GT(many, 100);
+}
+
+/// Needles through a point: boxes around their long borders nearly all have one middle, and their short ends lie far
+/// away from it.
+std::vector<Segment> pins(Random& random, std::uint32_t count) {
+    std::vector<Segment> segments;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const glm::dvec3 tip = random.direction(), off = random.in_box(0.01);
+        const std::array<glm::dvec3, 3> corners{tip, -tip + off, -tip - off};
+        for (HalfEdge k = 0; k < 3; ++k) segments.push_back({3 * i + k, i, corners[k], corners[(k + 1) % 3]});
+    }
+    return segments;
+}
+
+/// The definition of what may lie beside a border, written down once more.
+TEST(BorderCrowd, CandidatesAreThoseWhoseBoxesAreInReach) {
+    std::size_t listed = 0;
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+        Random random(seed);
+        const std::vector<Segment> segments = seed % 2 == 0 ? pins(random, 200) : straws(random, 300, false);
+        const BorderIndex index(segments);
+        ASSERT_TRUE(index.has_crowds());
+        for (const Segment& own : segments) {
+            const glm::dvec3 along = own.b - own.a;
+            const double reach = index.reach_part() * glm::length(along);
+            const auto touches = [&](const Segment& s) {
+                return glm::all(glm::lessThan(glm::min(s.a, s.b), glm::max(own.a, own.b) + reach)) &&
+                       glm::all(glm::lessThan(glm::min(own.a, own.b) - reach, glm::max(s.a, s.b)));
+            };
+            std::vector<HalfEdge> expected, found;
+            std::size_t touching = 0;
+            for (const Segment& s : segments) {
+                if (!touches(s)) continue;
+                ++touching;
+                const glm::dvec3 way = s.b - s.a;
+                const bool is_parallel = std::abs(glm::dot(along, way)) > 0.9 * glm::length(along) * glm::length(way);
+                if (s.polygon != own.polygon && is_parallel) expected.push_back(s.half_edge);
+            }
+            BorderIndex::SeamCandidates candidates;
+            ASSERT_TRUE(index.find_candidates(own.half_edge, touching, candidates)) << "seed " << seed;
+            for (const Segment& s : candidates.segments()) found.push_back(s.half_edge);
+            std::sort(found.begin(), found.end());
+            ASSERT_EQ(found, expected) << "seed " << seed;
+            ASSERT_FALSE(index.find_candidates(own.half_edge, touching - 1, candidates)) << "seed " << seed;
+            std::vector<std::uint32_t> in_box;
+            index.find_in_box(glm::min(own.a, own.b), glm::max(own.a, own.b), in_box);
+            ASSERT_TRUE(std::any_of(in_box.begin(), in_box.end(),
+                                    [&](std::uint32_t i) { return segments[i].half_edge == own.half_edge; }));
+            listed += found.size();
+        }
+    }
+    EXPECT_GT(listed, 10000u);
 }
 
 TEST(BorderCrowd, MoreThanAskedForAreNotListed) {

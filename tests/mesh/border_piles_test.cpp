@@ -157,6 +157,7 @@ TEST(BorderPiles, PointTreesVisitWhatIsInABox) {
             EXPECT_FALSE(was_visited[k]);
             was_visited[k] = true;
             ++visited;
+            return true;
         });
         for (const Tree::Point& p : points) {
             if (!is_near(p.at, p.at)) continue;
