@@ -6,6 +6,7 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/empty_body.hpp>
@@ -43,6 +44,9 @@ using boost::system::error_code;
 constexpr std::chrono::seconds kHeadTime{5}, kAnswerTime{30};
 constexpr std::uint32_t kMostHeadBytes = 16 * 1024;
 constexpr std::size_t kMostConnections = 64, kMostSockets = 16;
+/// A connection that cannot be accepted, for want of file descriptors above all, stays in the queue: asking again at
+/// once would find it there at once.
+constexpr std::chrono::milliseconds kAcceptPause{100};
 /// A page that does not take its answers is asked for nothing more until it does.
 constexpr std::size_t kMostWaitingAnswers = 8;
 
@@ -70,6 +74,7 @@ struct ViewServer::Inner {
     asio::io_context io{1};
     tcp::acceptor acceptor{io};
     asio::signal_set signals{io};
+    asio::steady_timer accept_pause{io};
     std::optional<Gatekeeper> gate;
     std::set<std::shared_ptr<Connection>> connections;
     std::size_t sockets = 0;
@@ -258,7 +263,11 @@ void ViewServer::Inner::accept() {
             connections.insert(connection);
             connection->read_request();
         }
-        accept();
+        if (!error) return accept();
+        accept_pause.expires_after(kAcceptPause);
+        accept_pause.async_wait([this](error_code is_cancelled) {
+            if (!is_cancelled && acceptor.is_open()) accept();
+        });
     });
 }
 
@@ -266,6 +275,7 @@ void ViewServer::Inner::close_all() {
     error_code ignored;
     acceptor.close(ignored);
     signals.cancel(ignored);
+    accept_pause.cancel();
     while (!connections.empty()) std::shared_ptr<Connection>(*connections.begin())->close();
     io.stop();
 }

@@ -6,13 +6,16 @@
 import base64
 import json
 import os
+import resource
 import shutil
 import signal
+import socket
 import struct
 import subprocess
 import sys
 import tempfile
 import time
+import urllib.request
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 from browser import PRESS, RELEASE, Browser, at, center_of, check
@@ -113,6 +116,36 @@ def test_signal_at_once(burin, scene):
         server, _ = start(burin, scene)
         server.send_signal(number)
         check(server.wait(timeout=10) == 0, "a signal ends it that comes right after the address")
+
+
+def test_many_connections(burin, scene):
+    """More connections than it has file descriptors wait, and keep no core busy; later ones are answered."""
+    def few_files():
+        resource.setrlimit(resource.RLIMIT_NOFILE, (24, 24))
+
+    server = subprocess.Popen([burin, "view", scene, "--no-browser", "-q"], stdout=subprocess.PIPE, text=True,
+                              preexec_fn=few_files)
+    try:
+        url = server.stdout.readline().strip()
+        port = int(url.split(":")[2].split("/")[0])
+
+        def ticks():
+            with open(f"/proc/{server.pid}/stat") as file:
+                return sum(int(n) for n in file.read().rsplit(")", 1)[1].split()[11:13])
+
+        waiting = [socket.create_connection(("127.0.0.1", port)) for _ in range(40)]
+        time.sleep(0.2)
+        before = ticks()
+        time.sleep(1.5)
+        used = (ticks() - before) / os.sysconf("SC_CLK_TCK")
+        check(used < 0.1, f"it waits: {used} s of CPU time in 1.5 s")
+        for each in waiting:
+            each.close()
+        with urllib.request.urlopen(url, timeout=20) as answer:
+            check(answer.status == 200, "those that come later are answered")
+    finally:
+        server.terminate()
+        check(server.wait(timeout=10) == 0, "SIGTERM ends it with 0")
 
 
 def test_view(page):
@@ -342,6 +375,7 @@ def main():
         with open(scene, "w") as file:
             file.write(SCENE)
         test_signal_at_once(burin, scene)
+        test_many_connections(burin, scene)
         server, url = start(burin, scene)
         browser = Browser(scratch, 1366, 820)
         browser.post("/goog/cdp/execute", cmd="Browser.setDownloadBehavior",
