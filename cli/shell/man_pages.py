@@ -7,12 +7,22 @@ import os
 import re
 import subprocess
 import sys
+from html.parser import HTMLParser
+
+PAGE_OF_VIEW = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "web", "page", "view.html")
 
 EXIT_STATUS = {
     "0": "All is done.",
     "1": "Bad input: a file that cannot be read or written, or that is wrong. The message names the file and what to do.",
     "2": "Bad arguments.",
     "130": "Interrupted. There is no partial file.",
+}
+# Of a command that goes on until a signal ends it.
+EXIT_STATUS_OF_VIEW = {
+    "0": "Ctrl-C or another signal ended it, once it had printed the address of its page.",
+    "1": "Bad input: a file that cannot be read, or that is wrong, or a port that is in use. The message says what to do.",
+    "2": "Bad arguments.",
+    "130": "Interrupted before it had printed the address.",
 }
 ENVIRONMENT = {
     "BURIN_STYLES": "Folders of style sheets, separated by colons.",
@@ -97,7 +107,33 @@ def synopsis(usage: str) -> str:
     return "\\fB" + roff(" ".join(bold)) + "\\fR " + " ".join(f"\\fI{roff(w)}\\fR" for w in words[len(bold):])
 
 
-def page(name: str, version: str, parsed: Help, others: list[str], examples: list[tuple[str, str]], about: str) -> str:
+class KeysOfPage(HTMLParser):
+    """What the page of `burin view` says of its keys and its mouse: the rows of its list."""
+
+    def __init__(self):
+        super().__init__()
+        self.rows: list[dict[str, str]] = []
+        self.part = ""
+        with open(PAGE_OF_VIEW, encoding="utf-8") as file:
+            self.feed(file.read())
+
+    def handle_starttag(self, tag, attrs):
+        if tag == "dt":
+            self.rows.append({"dt": "", "dd": ""})
+        if tag in ("dt", "dd"):
+            self.part = tag
+
+    def handle_endtag(self, tag):
+        if tag == self.part:
+            self.part = ""
+
+    def handle_data(self, data):
+        if self.part:
+            self.rows[-1][self.part] += data
+
+
+def page(name: str, version: str, parsed: Help, others: list[str], examples: list[tuple[str, str]], about: str,
+         keys: dict[str, str], exit_status: dict[str, str]) -> str:
     lines = [
         '.\\" Made of the program\'s help.',
         f'.TH {name.upper()} 1 "" "{version}" "Burin"',
@@ -124,11 +160,13 @@ def page(name: str, version: str, parsed: Help, others: list[str], examples: lis
             lines.append("It must be given.")
     if parsed.footer:
         lines += [".SH NOTES"] + [roff(line) for line in parsed.footer]
+    if keys:
+        lines += [".SH KEYS AND MOUSE", "On the page:"] + rows_of(keys)
     if examples:
         lines.append(".SH EXAMPLES")
         for text, command in examples:
             lines += ([".PP", roff(text) + ":"] if text else []) + [".PP", ".nf", ".RS", roff(command), ".RE", ".fi"]
-    lines += [".SH EXIT STATUS"] + rows_of(EXIT_STATUS)
+    lines += [".SH EXIT STATUS"] + rows_of(exit_status)
     lines += [".SH ENVIRONMENT"] + rows_of(ENVIRONMENT)
     lines += [".SH FILES"] + rows_of(FILES)
     lines += [".SH SEE ALSO", ", ".join(f"\\fB{roff(other)}\\fR(1)" for other in others)]
@@ -145,11 +183,14 @@ def main() -> None:
     program = Help(output_of("--help"))
     commands = [name for name, _ in program.sections["Subcommands"]]
     names = ["burin"] + [f"burin-{command}" for command in commands]
-    pages = {"burin": page("burin", version, program, names[1:], EXAMPLES["render"][:1], ABOUT)}
+    pages = {"burin": page("burin", version, program, names[1:], EXAMPLES["render"][:1], ABOUT, {}, EXIT_STATUS)}
     for command in commands:
         name = f"burin-{command}"
         others = [other for other in names if other != name]
-        pages[name] = page(name, version, Help(output_of(command, "--help")), others, EXAMPLES.get(command, []), "")
+        is_view = command == "view"
+        pages[name] = page(name, version, Help(output_of(command, "--help")), others, EXAMPLES.get(command, []), "",
+                           {row["dt"]: row["dd"] for row in KeysOfPage().rows} if is_view else {},
+                           EXIT_STATUS_OF_VIEW if is_view else EXIT_STATUS)
     os.makedirs(folder, exist_ok=True)
     for name, text in pages.items():
         with open(os.path.join(folder, name + ".1"), "w", encoding="utf-8") as file:
