@@ -199,6 +199,7 @@ def test_rolled_camera(page, burin, scratch):
         check(server.wait(timeout=10) == 0, "SIGTERM ends it with 0")
 
 
+STATE = "document.body.dataset.connection === '{}' && !document.querySelector('#state').hidden"
 SET_VALUE = "const e = document.querySelector(arguments[0]); e.value = arguments[1];" \
             "e.dispatchEvent(new Event(e.type === 'range' ? 'input' : 'change', {bubbles: true}))"
 
@@ -340,7 +341,59 @@ def test_two_pages(browser, burin, scene, folder):
     finally:
         server.terminate()
         check(server.wait(timeout=10) == 0, "SIGTERM ends it with 0")
-    browser.wait_until("document.body.dataset.ended === 'yes'", "the page says that its server has ended")
+    browser.wait_until(STATE.format("gone"), "the page says that its server has ended")
+
+
+def test_connection(page, burin, scene):
+    """What is so is said where a page has no connection, and it goes on by itself when there is one again."""
+    browser = page.browser
+    script = browser.post("/goog/cdp/execute", cmd="Page.addScriptToEvaluateOnNewDocument", params={"source": """
+        const Plain = WebSocket;
+        window.sockets = [];
+        WebSocket = class extends Plain { constructor(...all) { super(...all); window.sockets.push(this); } };
+        WebSocket.OPEN = Plain.OPEN;"""})
+    server, url = start(burin, scene)
+    try:
+        page.open(url)
+        browser.run(SET_VALUE, "#width", "0.9")
+        page.drag(70, 20)
+        before = page.picture()
+        browser.run("window.sockets[0].close()")
+        browser.wait_until("window.sockets.length > 1 && document.body.dataset.connection === 'open'",
+                           "a connection that was cut is made again")
+        page.changes(lambda: page.drag(30, 0), "the page goes on")
+        page.changes(lambda: page.drag(-30, 0), "and back")
+        browser.wait_until(f"{PICTURE} === arguments[0]", "with the look that it had", before)
+        address = browser.run("return location.hash")
+        browser.run("location.hash = 'style=comic&sheet=' + '%01'.repeat(15000)")
+        browser.wait_until("document.querySelector('.fault-text').textContent.includes('too long')",
+                           "a message that the server would not read is said to be too long")
+        browser.run("location.hash = arguments[0]", address)
+        browser.wait_until(f"{PICTURE} === arguments[0]", "and the page goes on", before)
+        check(browser.run("return window.sockets.length") == 2, "by the same connection")
+        # As many as the server shows at once; then one more.
+        browser.run("for (let i = 0; i < 15; ++i) new WebSocket(`ws://${location.host}${location.pathname}socket`)")
+        browser.wait_until("window.sockets.filter(s => s.readyState === 1).length === 16", "there are 16 pages")
+        first = browser.send("GET", browser.session + "/window")
+        other = browser.post("/window/new", type="tab")["handle"]
+        browser.post("/window", handle=other)
+        browser.post("/url", url=url)
+        browser.wait_until(STATE.format("full"), "a page too many says that it is one")
+        browser.post("/window", handle=first)
+        browser.run("window.sockets.slice(-15).forEach(s => s.close())")
+        browser.post("/window", handle=other)
+        browser.wait_until("document.body.dataset.ready === 'yes'", "it begins when there is room")
+        check(browser.run("return document.querySelector('#state').hidden"), "and says nothing more")
+        browser.send("DELETE", browser.session + "/window")
+        browser.post("/window", handle=first)
+        server.kill()
+        server.wait()
+        page.drag(30, 0)
+        browser.wait_until(STATE.format("gone"), "a server that is gone is said to be")
+    finally:
+        if server.poll() is None:
+            server.kill()
+        browser.post("/goog/cdp/execute", cmd="Page.removeScriptToEvaluateOnNewDocument", params=script)
 
 
 def test_sizes(page):
@@ -396,8 +449,9 @@ def main():
         began = time.time()
         check(server.wait(timeout=10) == 0, "SIGTERM ends it with 0, with the page open")
         print(f"ended {1000 * (time.time() - began):.0f} ms after SIGTERM")
-        browser.wait_until("document.body.dataset.ended === 'yes'", "the page says so")
+        browser.wait_until(STATE.format("gone"), "the page says so")
         test_two_pages(browser, burin, scene, folder)
+        test_connection(page, burin, scene)
         test_rolled_camera(page, burin, scratch)
         print("burin view works in", browser.run("return navigator.userAgent"))
     finally:

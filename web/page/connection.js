@@ -27,25 +27,62 @@ function readAnswer(data) {
   return answer;
 }
 
+/** Of a message, in bytes; the server closes the connection where one is longer. */
+const longestMessage = 64 * 1024;
+const shortestPauseMs = 100, longestPauseMs = 4000;
+
+/** A connection that is opened again, for as long as the page is there. */
 export class Connection {
-  /** `onAnswer`: gets what no request waits for; `onEnd`: is called once, when the server is gone. */
-  constructor(onAnswer, onEnd) {
+  /**
+   * `onAnswer`: gets what no request waits for. `onState`: gets "open", or why it is not: "dropped" (it is opened
+   * again), "full" (the server shows as many pages as it can), "other" (what answers is another server), or "gone"
+   * (nothing answers).
+   */
+  constructor(onAnswer, onState) {
+    Object.assign(this, {onAnswer, onState});
     this.waiting = new Map();
     this.lastNumber = 0;
+    this.pauseMs = shortestPauseMs;
+    this.open();
+  }
+
+  open() {
+    let wasOpen = false;
     this.socket = new WebSocket(`ws://${location.host}${location.pathname}socket`);
     this.socket.binaryType = "arraybuffer";
-    this.socket.onmessage = event => {
-      const answer = readAnswer(event.data);
-      const resolve = this.waiting.get(answer.number);
-      this.waiting.delete(answer.number);
-      if (resolve) resolve(answer);
-      else onAnswer(answer);
+    this.socket.onopen = () => {
+      wasOpen = true;
+      this.onState("open");
     };
-    this.socket.onclose = () => {
-      for (const resolve of this.waiting.values()) resolve({kind: "error", message: "the server has ended"});
-      this.waiting.clear();
-      onEnd();
-    };
+    this.socket.onmessage = event => this.take(readAnswer(event.data));
+    this.socket.onclose = () => this.closed(wasOpen);
+  }
+
+  take(answer) {
+    const resolve = this.waiting.get(answer.number);
+    this.waiting.delete(answer.number);
+    if (resolve) return resolve(answer);
+    // What is drawn stands for a server that is well; a greeting comes of one that closes each connection, too.
+    if (answer.kind === "frame") this.pauseMs = shortestPauseMs;
+    this.onAnswer(answer);
+  }
+
+  async closed(wasOpen) {
+    for (const resolve of this.waiting.values()) resolve({kind: "error", message: "burin view does not answer"});
+    this.waiting.clear();
+    const answers = await this.whoAnswers();
+    this.onState(answers !== "server" ? answers : wasOpen ? "dropped" : "full");
+    setTimeout(() => this.open(), this.pauseMs);
+    this.pauseMs = Math.min(longestPauseMs, 2 * this.pauseMs);
+  }
+
+  /** "server": the one of this page; "other"; "gone": none. */
+  async whoAnswers() {
+    try {
+      return (await fetch(location.pathname, {cache: "no-store"})).ok ? "server" : "other";
+    } catch {
+      return "gone";
+    }
   }
 
   get isOpen() {
@@ -55,14 +92,17 @@ export class Connection {
   /** Sends a message and returns its number, which the answer has. */
   send(message) {
     const number = ++this.lastNumber;
-    if (this.isOpen) this.socket.send(inToml({...message, number}));
+    if (!this.isOpen) return number;
+    const text = inToml({...message, number});
+    if (new Blob([text]).size <= longestMessage) this.socket.send(text);
+    else setTimeout(() => this.take({kind: "error", number, message: "this look is too long; name the file of its sheet by --style"}));
     return number;
   }
 
   /** Sends a message; the promise has its answer, which may be of the kind "error". */
   request(message) {
     return new Promise(resolve => {
-      if (!this.isOpen) return resolve({kind: "error", message: "the server has ended"});
+      if (!this.isOpen) return resolve({kind: "error", message: "burin view does not answer"});
       this.waiting.set(this.send(message), resolve);
     });
   }

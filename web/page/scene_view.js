@@ -31,6 +31,13 @@ export class SceneView {
     return {kind, size: this.size, ...more, camera: this.orbit.camera()};
   }
 
+  /** Nothing is asked for yet; the look goes out before the next view. */
+  begin(look) {
+    this.look = look;
+    this.lookWaits = true;
+    this.previewNumber = this.fullNumber = 0;
+  }
+
   viewChanged() {
     this.viewWaits = true;
     if (this.canvas.dataset.rests !== "no") this.canvas.dataset.rests = "no";

@@ -7,6 +7,7 @@ import {SceneView} from "./scene_view.js";
 const $ = selector => document.querySelector(selector);
 const canvas = $("#picture");
 let orbit = null, panel = null, view = null, toastTimer = 0, addressTimer = 0;
+let hasView = false;
 let fittedBy = "";  // the kind of view that is shown as the server has fitted it to the size of the picture
 
 function toast(text, isFault = false) {
@@ -63,6 +64,7 @@ function readAddress() {
 // ---- what changes the view ----
 
 function viewChanged() {
+  hasView = true;
   // Many times a second: what is the same already is left alone, for a browser lays out what is set.
   if (!$("#mark").hidden) closeExplained();  // it is of the view before
   const projection = orbit.isOrthographic ? "Parallel" : "Perspective";
@@ -256,8 +258,7 @@ function showNotes(notes) {
 async function followAddress() {
   const {camera, look} = readAddress();
   panel.restore(look ?? {});
-  view.look = panel.look;
-  view.lookWaits = true;
+  view.begin(panel.look);
   if (!camera) return takeView("home");
   fittedBy = "";
   orbit.take(camera);
@@ -292,12 +293,29 @@ $("#panel-switch").onclick = togglePanel;
 $("#help-button").onclick = () => $("#help").showModal();
 $("#explained .close").onclick = closeExplained;
 
+const whatIsSo = {
+  dropped: "The connection to burin view was cut; it is made again …",
+  full: "burin view shows as many pages as it can at once. Close one of the others, and this one goes on.",
+  other: "Another burin view answers here. Each prints an address of its own: use that one.",
+  gone: "burin view does not answer: it has ended, or the way to it is cut. Start it again and use its new address; "
+    + "if it still runs, this page goes on as soon as it answers.",
+};
+
+function stateChanged(state) {
+  document.body.dataset.connection = state;
+  $("#state").textContent = whatIsSo[state] ?? "";
+  $("#state").hidden = state === "open";
+  if (!view) $("#wait").hidden = state !== "open";
+}
+
+/** The server has begun anew for this page: it is told the look, and asked for the view. */
+function resume() {
+  view.begin(panel.look);
+  if (hasView) viewChanged();
+  else followAddress();
+}
+
 const connection = new Connection(answer => {
-  if (answer.kind === "hello") begin(connection, answer);
+  if (answer.kind === "hello") view ? resume() : begin(connection, answer);
   else if (!view?.take(answer) && answer.kind === "error") toast(answer.message, true);
-}, () => {
-  document.body.dataset.ended = "yes";
-  $("#wait").hidden = true;
-  toast("burin view has ended; start it again and reload its new address", true);
-  clearTimeout(toastTimer);
-});
+}, stateChanged);
