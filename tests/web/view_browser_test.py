@@ -193,7 +193,12 @@ def test_rolled_camera(page, burin, scratch):
         page.open(url)
         browser = page.browser
         page.changes(lambda: page.drag(40, 10), "the first drag turns it")
-        browser.wait_until("new URLSearchParams(location.hash.slice(1)).get('up') === '0,1,0'", "it stands upright")
+        upright = "new URLSearchParams(location.hash.slice(1)).get('up') === '0,1,0'"
+        browser.wait_until(upright, "it stands upright")
+        page.changes(lambda: page.click("#home"), "Home has the model's view")
+        browser.wait_until("!(" + upright + ")", "with its roll")
+        page.changes(lambda: page.click("#fit"), "Fit fits it")
+        browser.wait_until(upright, "upright")
     finally:
         server.terminate()
         check(server.wait(timeout=10) == 0, "SIGTERM ends it with 0")
@@ -270,6 +275,12 @@ def test_sheet(page):
     page.changes(lambda: browser.run(SET_VALUE, "#style", "pencil"), "another style is chosen")
     page.changes(lambda: browser.run(SET_VALUE, "#style", "comic"), "and the first one again")
     check(browser.run(f"return {area}.value") == kept, "what was typed into it is there")
+    kept += "\n# at the last moment"
+    page.changes(lambda: browser.run(
+        f"const a = {area}; a.value = arguments[2]; a.dispatchEvent(new Event('input')); {SET_VALUE}",
+        "#style", "pencil", kept), "another style is chosen at once")
+    page.changes(lambda: browser.run(SET_VALUE, "#style", "comic"), "and the first one again")
+    check(browser.run(f"return {area}.value") == kept, "what was typed just before is there, too")
 
 
 def test_explain(page):
@@ -411,10 +422,14 @@ def test_sizes(page):
         cut = browser.run("""return [...document.querySelectorAll('button, select, input')].filter(e => {
             const b = e.getBoundingClientRect(); return b.width > 0 && (b.left < 0 || b.right > innerWidth); }).length""")
         check(cut == 0, f"{name}: {cut} controls reach beyond the side")
+        tops = browser.run("return [...document.querySelector('nav').children].map(e => e.getBoundingClientRect().top)")
+        check(len(set(tops)) == 1, f"{name}: what changes the view is one row")
         check(browser.run("return document.querySelector('#picture').clientHeight") > 200, f"{name}: the picture has room")
         page.screenshot(os.path.join(page.folder, name + ".png"))
         if width < 500:
             page.changes(lambda: page.drag(60, 30), "it can be turned there, too")
+            page.changes(lambda: browser.run(SET_VALUE, "#views", "Top"), "there are standard views without keys")
+            page.changes(lambda: page.click("#home"), "and the scene's own view")
     browser.post("/goog/cdp/execute", cmd="Emulation.clearDeviceMetricsOverride", params={})
 
 

@@ -72,9 +72,9 @@ export class Orbit {
     this.taken = null;
   }
 
-  /** The view as a message has it. */
-  camera() {
-    if (this.taken) return this.taken;
+  /** The view as a message has it. `isUpright`: without the roll of a view that was taken. */
+  camera(isUpright = false) {
+    if (this.taken && !isUpright) return this.taken;
     const {back} = this.axes;
     const camera = {
       eye: sum(this.target, scaled(back, this.distance)).map(rounded),

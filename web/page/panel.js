@@ -57,6 +57,7 @@ export class Panel {
   }
 
   restore(part) {
+    this.editor.drop();
     this.look = {...structuredClone(this.hello.look), ...part};
     this.update();
   }
@@ -103,6 +104,7 @@ export class Panel {
   }
 
   keepEdited() {
+    this.editor.flush();
     if (this.look.sheet) this.edited[this.look.style] = this.look.sheet;
     else delete this.edited[this.look.style];
   }
@@ -145,7 +147,7 @@ export class Panel {
     $("#shading").value = look.shading;
     $("#edit").disabled = !hasSheet;
     if (!hasSheet && !$("#editor").hidden) this.toggleEditor(false);
-    if (document.activeElement !== this.editor.area) this.editor.text = look.sheet || this.textOfStyle();
+    if (document.activeElement !== this.editor.area && !this.editor.waits) this.editor.text = look.sheet || this.textOfStyle();
     this.updateSheet(hasSheet ? this.sheet : null);
   }
 

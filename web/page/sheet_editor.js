@@ -10,18 +10,37 @@ export class SheetEditor {
     this.fault = root.querySelector(".fault");
     this.faultText = root.querySelector(".fault-text");
     this.line = 0;
-    let timer = 0;
+    this.onText = onText;
+    this.timer = 0;
     this.area.addEventListener("input", () => {
       this.count();
       this.showFault(null);
-      clearTimeout(timer);
-      timer = setTimeout(() => onText(this.area.value), waitMs);
+      clearTimeout(this.timer);
+      this.timer = setTimeout(() => this.flush(), waitMs);
     });
     this.area.addEventListener("scroll", () => this.follow());
     this.area.addEventListener("keydown", event => {
       event.stopPropagation();
       if (event.key === "Escape") this.area.blur();
     });
+  }
+
+  /** Whether a text was typed that was not handed out yet. */
+  get waits() {
+    return this.timer !== 0;
+  }
+
+  /** Hands it out. */
+  flush() {
+    if (!this.waits) return;
+    this.drop();
+    this.onText(this.area.value);
+  }
+
+  /** Hands it out no more. */
+  drop() {
+    clearTimeout(this.timer);
+    this.timer = 0;
   }
 
   set text(text) {

@@ -74,7 +74,9 @@ function viewChanged() {
 }
 
 async function takeView(kind) {
-  const answer = await view.connection.request(kind === "home" ? {kind, size: view.size} : view.message(kind));
+  const message = {kind, size: view.size};
+  if (kind === "fit") message.camera = orbit.camera(true);
+  const answer = await view.connection.request(message);
   if (answer.kind === "error") return toast(answer.message, true);
   orbit.take(answer);
   fittedBy = kind;
@@ -94,6 +96,12 @@ function toggleProjection() {
 const turnPerPixel = 0.008;
 const quarter = Math.PI / 2;
 const standardViews = [[0, 0], [quarter, 0], [2 * quarter, 0], [-quarter, 0], [0, quarter], [0, -quarter]];
+
+/** From the front, the right, behind, the left, the top, below. */
+function takeStandardView(i) {
+  orbit.look(...standardViews[i]);
+  viewChanged();
+}
 
 /** A place on the canvas, in parts of its height from its middle. */
 function fromMiddle(x, y) {
@@ -162,7 +170,7 @@ function listenToKeys() {
     else if (event.target.matches("textarea, input[type=number], select")) return;
     else if (key === "+" || key === "=") orbit.zoom(1 / 1.15);
     else if (key === "-") orbit.zoom(1.15);
-    else if (key >= "1" && key <= "6") orbit.look(...standardViews[Number(key) - 1]);
+    else if (key >= "1" && key <= "6") takeStandardView(Number(key) - 1);
     else {
       const actions = {
         f: () => takeView("fit"), "0": () => takeView("fit"), home: () => takeView("home"), p: toggleProjection,
@@ -288,6 +296,10 @@ for (const format of ["png", "svg", "toml"]) $(`#save-${format}`).onclick = () =
 $("#copy").onclick = copyCommand;
 $("#fit").onclick = () => takeView("fit");
 $("#home").onclick = () => takeView("home");
+$("#views").onchange = event => {
+  takeStandardView(event.target.selectedIndex - 1);
+  event.target.selectedIndex = 0;  // the same one can be chosen again
+};
 $("#projection").onclick = toggleProjection;
 $("#panel-switch").onclick = togglePanel;
 $("#help-button").onclick = () => $("#help").showModal();
