@@ -44,7 +44,8 @@ std::string source_of(const StyleValue& value) {
 /// StrokeExplainer has the strokes that reach a pixel.
 class StrokeExplainer {
   public:
-    StrokeExplainer(const Frame& frame, int x, int y, int threads)
+    /// `reach_px`: how far from the pixel it looks for one with ink.
+    StrokeExplainer(const Frame& frame, int x, int y, int reach_px, int threads)
         : frame_(frame),
           sheet_(*frame.sheet),
           x_(x),
@@ -56,7 +57,8 @@ class StrokeExplainer {
         inked_ = ink_lines(found_, sheet_, threads, notes_);
         inked_.filter = frame.scene->lines.style.filter;
         pixel_ = frame;
-        pixel_.crop = {x, y, x + 1, y + 1};
+        if (reach_px > 0) go_to_nearest_ink(reach_px, threads);
+        pixel_.crop = {x_, y_, x_ + 1, y_ + 1};
         for (std::size_t i = 0; i < inked_.strokes.size(); ++i) {
             if (reaches(inked_.strokes[i])) near_.push_back(i);
         }
@@ -67,6 +69,9 @@ class StrokeExplainer {
             return p != q ? p > q : s.chain < t.chain;
         });
     }
+
+    int x() const { return x_; }
+    int y() const { return y_; }
 
     std::vector<ExplainedStroke> strokes() const {
         std::vector<ExplainedStroke> strokes;
@@ -114,16 +119,41 @@ class StrokeExplainer {
         }
         return nearness;
     }
+    /// What ink alone leaves in a part of the picture.
+    Film drawn(const InkedLines& lines, PixelRect part, int threads) const {
+        Frame frame = pixel_;
+        frame.crop = part;
+        Film film({0, 0, frame_.width, frame_.height}, part,
+                  {true, false, false, false, false, false, false, false, {}}, frame_.criteria.classes);
+        for (int y = part.y0; y < part.y1; ++y) film.put_background(part.x0, part.x1, y);
+        finish_stream_stores();
+        draw_ink(frame, lines, threads, film);
+        return film;
+    }
+    void go_to_nearest_ink(int reach_px, int threads) {
+        const PixelRect around{std::max(x_ - reach_px, 0), std::max(y_ - reach_px, 0),
+                               std::min(x_ + reach_px + 1, frame_.width), std::min(y_ + reach_px + 1, frame_.height)};
+        const Film film = drawn(inked_, around, threads);
+        const Channel* const alpha = film.image().find("A");
+        if (alpha == nullptr) return;
+        const int from_x = x_, from_y = y_;
+        int least = reach_px * reach_px + 1;
+        for (int y = around.y0; y < around.y1; ++y) {
+            for (int x = around.x0; x < around.x1; ++x) {
+                const int square = (x - from_x) * (x - from_x) + (y - from_y) * (y - from_y);
+                if (square >= least || film.image().value(*alpha, x - around.x0, y - around.y0) <= 0) continue;
+                least = square;
+                x_ = x;
+                y_ = y;
+            }
+        }
+    }
     /// How much ink some of the strokes leave in the pixel.
     double ink_of(const std::vector<std::size_t>& strokes) const {
         InkedLines some = inked_;
         some.strokes.clear();
         for (const std::size_t i : strokes) some.strokes.push_back(inked_.strokes[i]);
-        Film film({0, 0, frame_.width, frame_.height}, pixel_.crop,
-                  {true, false, false, false, false, false, false, false, {}}, frame_.criteria.classes);
-        film.put_background(x_, x_ + 1, y_);
-        finish_stream_stores();
-        draw_ink(pixel_, some, 1, film);
+        const Film film = drawn(some, pixel_.crop, 1);
         const Channel* const alpha = film.image().find("A");
         return alpha == nullptr ? 0 : film.image().value(*alpha, 0, 0);
     }
@@ -186,6 +216,10 @@ class StrokeExplainer {
             result.earlier_sets.push_back({other.name, reason});
         }
         result.drawn_as = sheet_.class_of(piece.classes).value_or(piece.drawn_as);
+        result.classes = piece.classes;
+        result.is_edge = piece.line.is_edge();
+        result.dihedral_deg = static_cast<double>(sides.dihedral_deg);
+        result.crease_from_deg = found_.crease_angle_deg[0];
         result.front = side_of(sides.front_object, sides.front_material);
         result.other = side_of(sides.other_object, sides.other_material);
         result.other_is_behind = sides.is_beyond;
@@ -248,7 +282,12 @@ class StrokeExplainer {
 }  // namespace
 
 std::vector<ExplainedStroke> explain_strokes(const Frame& frame, int x, int y, int threads) {
-    return StrokeExplainer(frame, x, y, resolve_thread_count(threads)).strokes();
+    return StrokeExplainer(frame, x, y, 0, resolve_thread_count(threads)).strokes();
+}
+
+ExplainedPlace explain_strokes_near(const Frame& frame, int x, int y, int reach_px, int threads) {
+    const StrokeExplainer explainer(frame, x, y, reach_px, resolve_thread_count(threads));
+    return {explainer.x(), explainer.y(), explainer.strokes()};
 }
 
 }  // namespace burin

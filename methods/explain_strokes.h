@@ -34,6 +34,9 @@ struct ExplainedStroke {
     std::string set, style;
     std::vector<RefusedSet> earlier_sets;
     LineClass drawn_as = LineClass::silhouette;
+    LineClassSet classes;                          ///< all that apply
+    bool is_edge = false;                          ///< of a mesh; else two surfaces meet there
+    double dihedral_deg = 0, crease_from_deg = 0;  ///< of an edge of two polygons, and where creases begin
     ExplainedSide front, other;
     bool other_is_behind = false;  ///< it is seen beside the line, behind it; else it touches the line
     int invisibility = 0;
@@ -50,6 +53,20 @@ struct ExplainedStroke {
 
 /// What a frame's style sheet draws in one pixel, the topmost stroke first.
 std::vector<ExplainedStroke> explain_strokes(const Frame& frame, int x, int y, int threads = 0);
+
+/// The pixel with ink that is nearest to another one, and what is drawn in it.
+struct ExplainedPlace {
+    int x = 0, y = 0;
+    std::vector<ExplainedStroke> strokes;
+};
+
+/// The same of the nearest pixel with ink, at most `reach_px` away; of equally near ones, of the first one in reading
+/// order. If no ink is so near, it is the pixel itself.
+ExplainedPlace explain_strokes_near(const Frame& frame, int x, int y, int reach_px, int threads = 0);
+
+/// Why there are lines, in a sentence for each: their class, and what the surface does there. A line is told once,
+/// whatever number of its strokes reach the pixel.
+std::vector<std::string> reasons_of(const std::vector<ExplainedStroke>& strokes);
 
 /// The same for readers, and for programs as JSON (docs/shading/sheets.md).
 std::string text_of(const std::vector<ExplainedStroke>& strokes);

@@ -41,8 +41,51 @@ std::string equals(const ExplainedStroke& stroke, InkValue value) {
 
 std::string owner(const ExplainedSide& side) {
     std::string name = side.object == 0 ? "background" : printable(side.object_name, 100);
-    if (side.material != 0) name += "/" + printable(side.material_name, 100);
+    if (side.material != 0 && !side.material_name.empty()) name += "/" + printable(side.material_name, 100);
     return name;
+}
+
+std::string the(const ExplainedSide& side) { return side.object == 0 ? "the background" : owner(side); }
+
+/// What makes a line of its class there.
+std::string why(const ExplainedStroke& stroke) {
+    const std::string other = the(stroke.other);
+    switch (stroke.drawn_as) {
+        case LineClass::mark:
+            return "the model marks this edge as a line";
+        case LineClass::border:
+            return "its surface ends here, for no other polygon has this edge";
+        case LineClass::silhouette:
+            return (stroke.is_edge ? "its surface turns away from the eye here, before "
+                                   : "its surface ends here, before ") +
+                   other;
+        case LineClass::intersection:
+            return "it and " + other + " pass through each other";
+        case LineClass::object:
+            return "it and " + other + " are two objects that touch";
+        case LineClass::material:
+            return "it and " + other + " are two materials that touch";
+        case LineClass::crease: {
+            const std::string from = ", and creases begin at " + number(stroke.crease_from_deg) + "°";
+            if (stroke.dihedral_deg > 0) return "its polygons turn by " + number(stroke.dihedral_deg) + "° here" + from;
+            return "its surfaces touch at an angle" + from;
+        }
+        case LineClass::polygon:
+            return "two of its polygons have this edge";
+    }
+    return {};
+}
+
+std::string reason_of(const ExplainedStroke& stroke) {
+    std::string text = std::string(name_of(stroke.drawn_as)) + " of " + owner(stroke.front) + ": " + why(stroke);
+    LineClassSet others;
+    for (std::size_t i = 0; i < kLineClassCount; ++i) {
+        const auto c = static_cast<LineClass>(i);
+        if (c != stroke.drawn_as && stroke.classes.has(c)) others |= c;
+    }
+    if (!others.empty()) text += "; it is also " + to_string(others);
+    if (stroke.invisibility > 0) text += "; hidden, for a surface is in front of it";
+    return text;
 }
 
 std::string variables_in(const ExplainedStroke& stroke) {
@@ -155,6 +198,15 @@ std::string text_of(const std::vector<ExplainedStroke>& strokes) {
     std::string text;
     for (std::size_t i = 0; i < strokes.size(); ++i) text += text_of(i + 1, strokes[i]);
     return text;
+}
+
+std::vector<std::string> reasons_of(const std::vector<ExplainedStroke>& strokes) {
+    std::vector<std::string> reasons;
+    for (const ExplainedStroke& stroke : strokes) {
+        std::string reason = reason_of(stroke);
+        if (std::find(reasons.begin(), reasons.end(), reason) == reasons.end()) reasons.push_back(std::move(reason));
+    }
+    return reasons;
 }
 
 std::string json_of(const std::vector<ExplainedStroke>& strokes, int x, int y) {

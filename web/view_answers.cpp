@@ -154,6 +154,9 @@ std::string view_answer(std::int64_t number, const View& view) {
 
 std::string explain_answer(std::int64_t number, const ExplainedPixel& pixel) {
     JsonWriter json = begin_answer("explain", number);
+    json.key("x").value(std::int64_t{pixel.x}).key("y").value(std::int64_t{pixel.y}).key("reasons").begin_array();
+    for (const std::string& reason : pixel.reasons) json.value(reason);
+    json.end_array();
     json.key("lines").value(pixel.lines).key("fragments").value(pixel.fragments).end_object();
     return json.text();
 }

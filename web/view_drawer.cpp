@@ -112,12 +112,18 @@ DrawnView ViewDrawer::draw(const View& view, bool is_full) {
     return drawn;
 }
 
-ExplainedPixel ViewDrawer::explain(const View& view, int x, int y) {
+ExplainedPixel ViewDrawer::explain(const View& view, int x, int y, int reach_px) {
     ExplainedPixel explained;
+    with_frame(view, {false, true}, [&](const Frame& frame) {
+        const ExplainedPlace place = explain_strokes_near(frame, x, y, reach_px, viewed_.threads());
+        explained.x = place.x;
+        explained.y = place.y;
+        explained.reasons = reasons_of(place.strokes);
+        if (settings_.sheet) explained.lines = text_of(place.strokes);
+    });
     with_frame(view, {}, [&](const Frame& frame) {
-        explained.fragments = explain_pixel(frame, x, y);
-        explained.lines =
-            frame.sheet ? text_of(explain_strokes(frame, x, y, viewed_.threads())) : drawn_by_abuffer(frame, x, y);
+        explained.fragments = explain_pixel(frame, explained.x, explained.y);
+        if (!settings_.sheet) explained.fragments += drawn_by_abuffer(frame, explained.x, explained.y);
     });
     return explained;
 }

@@ -23,8 +23,10 @@ struct DrawnView {
 
 /// Why a pixel looks as it does, for readers.
 struct ExplainedPixel {
-    std::string lines;      ///< what is drawn there
-    std::string fragments;  ///< which surfaces are there, and what decided
+    int x = 0, y = 0;
+    std::vector<std::string> reasons;  ///< why there are the lines that are drawn there, the topmost first
+    std::string lines;                 ///< how a style sheet draws them; empty: none does
+    std::string fragments;             ///< which surfaces are there, and what decided
 };
 
 /// ViewDrawer draws views of a scene with a look of its own; others may draw the same scene with theirs. What all its
@@ -41,7 +43,8 @@ class ViewDrawer {
 
     /// `is_full`: as `burin render` draws it; else a preview, for while a view moves.
     DrawnView draw(const View& view, bool is_full);
-    ExplainedPixel explain(const View& view, int x, int y);
+    /// Of the nearest pixel with a line, at most `reach_px` away; if none is, of the pixel itself.
+    ExplainedPixel explain(const View& view, int x, int y, int reach_px);
     /// The files that `burin render` writes of the same.
     std::string png(const View& view);
     std::string svg(const View& view, std::vector<std::string>& notes);

@@ -93,6 +93,7 @@ ViewMessage read_message(TomlReader& root) {
         if (!x || !y) root.fail("x or y is missing");
         message.x = *x;
         message.y = *y;
+        message.reach_px = root.integer("reach", 0, kMostReachPx).value_or(0);
     }
     if (message.kind == Kind::save) {
         static constexpr ViewMessage::Format kFormats[] = {ViewMessage::Format::png, ViewMessage::Format::svg,

@@ -19,6 +19,7 @@ namespace burin {
 
 constexpr int kLargestViewSide = 4096;
 constexpr std::size_t kMostMessageBytes = 64 * 1024;
+constexpr int kMostReachPx = 64;
 constexpr std::size_t kMostParameters = 256;
 
 /// From where, and how large.
@@ -53,7 +54,7 @@ struct ViewMessage {
         look,     ///< from now on lines look like `look`
         home,     ///< the scene's own view, for a picture of this size
         fit,      ///< a view in the direction of `view` that the scene fills
-        explain,  ///< why pixel `x`, `y` of `view` looks as it does
+        explain,  ///< why the line nearest to pixel `x`, `y` of `view` is there, at most `reach_px` away
         save,     ///< a file of `view`
         command,  ///< the command line that draws `view`
     };
@@ -64,7 +65,7 @@ struct ViewMessage {
     View view;
     bool is_full = false;  ///< of a draw: in full quality
     Look look;
-    int x = 0, y = 0;
+    int x = 0, y = 0, reach_px = 0;
     Format format = Format::png;
 };
 

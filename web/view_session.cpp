@@ -128,7 +128,8 @@ void ViewSession::look(const ViewMessage& message) {
 }
 
 void ViewSession::explain(const ViewMessage& message) {
-    send_({explain_answer(message.number, drawer_->explain(message.view, message.x, message.y)), true});
+    const ExplainedPixel pixel = drawer_->explain(message.view, message.x, message.y, message.reach_px);
+    send_({explain_answer(message.number, pixel), true});
 }
 
 void ViewSession::save(const ViewMessage& message) {

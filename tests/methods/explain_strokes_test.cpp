@@ -65,5 +65,29 @@ TEST(ExplainStrokes, TellsSetStyleOwnerSharesAndValues) {
     EXPECT_EQ(text_of(explain_strokes(frame, 50, 50)), "the style sheet draws nothing in this pixel\n");
 }
 
+TEST(ExplainStrokes, TakesTheNearestInk) {
+    const ShadedScene scene(kScene, kSheet, 100, 100);
+    const Frame frame = scene.frame(scene.whole());
+    // Columns 23 to 26 have ink, and as many at the other side, 73 to 76.
+    struct Click {
+        int x, reach_px, found;
+    };
+    for (const Click& click : {Click{20, 3, 23}, {24, 3, 24}, {29, 3, 26}, {29, 64, 26}, {60, 64, 73}, {99, 64, 76}}) {
+        const ExplainedPlace place = explain_strokes_near(frame, click.x, 50, click.reach_px);
+        EXPECT_EQ(place.x, click.found) << click.x;
+        EXPECT_EQ(place.y, 50);
+        ASSERT_FALSE(place.strokes.empty());
+        EXPECT_EQ(text_of(place.strokes), text_of(explain_strokes(frame, place.x, place.y)));
+        EXPECT_EQ(reasons_of(place.strokes),
+                  std::vector<std::string>{"silhouette of crate: its surface turns away from the eye here, before the "
+                                           "background; it is also crease"});
+    }
+    for (const int reach_px : {0, 1, 2}) {
+        const ExplainedPlace place = explain_strokes_near(frame, 20, 50, reach_px);
+        EXPECT_EQ(place.x, 20);
+        EXPECT_TRUE(place.strokes.empty());
+    }
+}
+
 }  // namespace
 }  // namespace burin::explain_strokes_test

@@ -68,6 +68,7 @@ TEST(ViewMessages, AreRefusedWithAReason) {
         {"kind = \"explain\"\nsize = [64, 48]\nx = 64\ny = 0\n" + kCamera, "x"},
         {"kind = \"explain\"\nsize = [64, 48]\nx = 0\ny = -1\n" + kCamera, "y"},
         {"kind = \"explain\"\nsize = [64, 48]\nx = 0\n" + kCamera, "x or y is missing"},
+        {"kind = \"explain\"\nsize = [64, 48]\nx = 0\ny = 0\nreach = 65\n" + kCamera, "reach"},
         {"kind = \"save\"\nsize = [64, 48]\n" + kCamera, "format is missing"},
         {"kind = \"save\"\nsize = [64, 48]\nformat = \"exr\"\n" + kCamera, "format"},
         {"kind = \"look\"\nlines = [\"lines\"]", "unknown line class 'lines'"},

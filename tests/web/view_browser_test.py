@@ -19,6 +19,7 @@ import urllib.request
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 from browser import PRESS, RELEASE, Browser, at, center_of, check
+from view_page import FIRST_INK, PICTURE, SET_VALUE, STATE, Page
 
 SCENE = """
 [[object]]
@@ -34,75 +35,6 @@ size = [0.5, 0.5, 0.5]
 rotate = [0, 30, 0]
 translate = [0.1, 0.15, 0]
 """
-
-# A text that stands for all pixels that the page shows.
-PICTURE = """(() => {
-  const from = document.querySelector('#picture'), to = document.createElement('canvas');
-  [to.width, to.height] = [from.width, from.height];
-  to.getContext('2d').drawImage(from, 0, 0);
-  return to.toDataURL();
-})()"""
-RESTS = "document.querySelector('#picture').dataset.rests === 'yes'"
-
-
-class Page:
-    """The page of a running `burin view`."""
-
-    def __init__(self, browser, folder):
-        self.browser = browser
-        self.folder = folder
-
-    def open(self, url):
-        self.browser.post("/url", url=url)
-        self.browser.wait_until("document.body.dataset.ready === 'yes'", "the page begins")
-        self.settle()
-
-    def settle(self):
-        """Waits until nothing moves and the picture is in full quality."""
-        time.sleep(0.3)  # what was done just now has reached the page
-        self.browser.wait_until(RESTS, "the picture comes to rest")
-
-    def picture(self):
-        self.settle()
-        return self.browser.run("return " + PICTURE)
-
-    def changes(self, act, what):
-        before = self.picture()
-        act()
-        self.browser.wait_until(f"{PICTURE} !== arguments[0]", what, before)
-        self.settle()
-
-    def drag(self, dx, dy, button=0):
-        start = center_of(self.browser, "#picture")
-        steps = [at(start), {"type": "pointerDown", "button": button}]
-        steps += [at((start[0] + dx * i / 8, start[1] + dy * i / 8)) for i in range(1, 9)]
-        self.browser.mouse(*steps, {"type": "pointerUp", "button": button})
-
-    def click(self, selector):
-        self.browser.run("document.querySelector(arguments[0]).scrollIntoView({block: 'nearest'})", selector)
-        self.browser.mouse(at(center_of(self.browser, selector)), PRESS, RELEASE)
-
-    def wheel(self, amount):
-        x, y = center_of(self.browser, "#picture")
-        self.browser.post("/actions", actions=[{"type": "wheel", "id": "wheel", "actions": [
-            {"type": "scroll", "x": round(x), "y": round(y), "deltaX": 0, "deltaY": amount, "duration": 0}]}])
-
-    def downloaded(self, selector, name):
-        path = os.path.join(self.folder, name)
-        if os.path.exists(path):
-            os.remove(path)
-        self.click(selector)
-        for _ in range(400):
-            if os.path.exists(path) and os.path.getsize(path) > 0:
-                time.sleep(0.1)
-                with open(path, "rb") as file:
-                    return file.read()
-            time.sleep(0.05)
-        raise AssertionError(f"{name} was never saved")
-
-    def screenshot(self, path):
-        self.browser.save(path, self.browser.send("GET", self.browser.session + "/screenshot"))
-
 
 def start(burin, scene, *more):
     server = subprocess.Popen([burin, "view", scene, "--no-browser", "-q", *more], stdout=subprocess.PIPE, text=True)
@@ -204,11 +136,6 @@ def test_rolled_camera(page, burin, scratch):
         check(server.wait(timeout=10) == 0, "SIGTERM ends it with 0")
 
 
-STATE = "document.body.dataset.connection === '{}' && !document.querySelector('#state').hidden"
-SET_VALUE = "const e = document.querySelector(arguments[0]); e.value = arguments[1];" \
-            "e.dispatchEvent(new Event(e.type === 'range' ? 'input' : 'change', {bubbles: true}))"
-
-
 def test_looks(page):
     browser = page.browser
     page.changes(lambda: page.click("[data-lines=silhouette]"), "a click takes silhouettes away")
@@ -284,13 +211,29 @@ def test_sheet(page):
 
 
 def test_explain(page):
+    """A click says why the nearest line is there, whatever draws it; the answer goes with its view."""
     browser = page.browser
-    page.click("#picture")
-    browser.wait_until("!document.querySelector('#explained').hidden", "a click explains the pixel")
-    text = browser.run("return document.querySelector('#explained').textContent")
-    check("pixel" in text and "surfaces and tests" in text and len(text) > 200, f"with reasons: {text[:300]}")
-    page.screenshot(os.path.join(page.folder, "explained.png"))
-    page.click("#explained .close")
+    page.settle()
+    shows = "!document.querySelector('#explained').hidden"
+    x, y = browser.run(FIRST_INK)
+    for beside in (0, -3):
+        browser.mouse(at((x + beside, y)), PRESS, RELEASE)
+        browser.wait_until(shows, "a click explains the line")
+        text = browser.run("return document.querySelector('#explained').innerText")
+        reason = text.split("\n")[2]
+        check(reason.startswith("silhouette of ring: its surface turns away"), f"the reason comes first: {text}")
+        page.screenshot(os.path.join(page.folder, "explained.png"))
+        page.click("#explained .close")
+    browser.mouse(at((x - 40, y)), PRESS, RELEASE)
+    browser.wait_until(shows + " && document.querySelector('#explained').innerText.includes('no line is near')",
+                       "a click where there is nothing says so")
+    page.changes(lambda: page.drag(20, 0), "it is turned")
+    check(browser.run("return document.querySelector('#explained').hidden"), "the answer was of the view before")
+    browser.run("""const c = document.querySelector('#picture');
+      c.addEventListener('pointerup', () => c.dispatchEvent(new WheelEvent('wheel', {deltaY: -200})), {once: true})""")
+    page.changes(lambda: page.click("#picture"), "a click, and it is zoomed before there is an answer")
+    check(browser.run("return document.querySelector('#explained').hidden"), "which comes too late")
+    page.changes(lambda: page.click("#home"), "Home is the first view")
 
 
 def test_files(page, burin):
@@ -452,6 +395,7 @@ def main():
         page.open(url)
         page.screenshot(os.path.join(folder, "view.png"))
         test_view(page)
+        test_explain(page)
         test_looks(page)
         test_explain(page)
         test_sheet(page)

@@ -218,16 +218,35 @@ TEST(View, FaultsOfASheetHaveTheirPlace) {
     EXPECT_TRUE(page.receive("frame", 5));
 }
 
-TEST(View, APixelIsExplained) {
+TEST(View, TheNearestLineIsExplained) {
     Viewed viewed;
     PageSocket page(*viewed.view);
-    page.send_text(view_message("explain", 1, 320, 240, "x = 160\ny = 120"));
-    const Json plain = Json::parse(page.receive("explain", 1)->text);
-    EXPECT_NE(plain["fragments"].get<std::string>().find("160"), std::string::npos);
-    EXPECT_NE(plain["lines"], "");
+    const auto explained = [&](int number, int x, const std::string& more) {
+        page.send_text(view_message("explain", number, 320, 240, "x = " + std::to_string(x) + "\ny = 120\n" + more));
+        return Json::parse(page.receive("explain", number)->text);
+    };
+    int line_x = -1;
+    for (int x = 0; x < 320 && line_x < 0; x += 40) {
+        const Json answer = explained(1 + x, x, "reach = 64");
+        if (!answer["reasons"].empty()) line_x = answer["x"];
+    }
+    ASSERT_GE(line_x, 0);
+    const Json line = explained(1000, line_x, "");
+    const std::string reason = line["reasons"][0];
+    EXPECT_EQ(reason.find("silhouette of torus"), 0u) << reason;
+    EXPECT_EQ(line["lines"], "");  // of a sheet
+    EXPECT_NE(line["fragments"].get<std::string>().find("pixel " + std::to_string(line_x)), std::string::npos);
+    // Beside it the same is said, if it is near enough.
+    EXPECT_EQ(explained(1001, line_x - 5, "reach = 5"), [&] {
+        Json same = line;
+        same["number"] = 1001;
+        return same;
+    }());
+    EXPECT_TRUE(explained(1002, line_x - 5, "reach = 2")["reasons"].empty());
     page.send_text(look(2, "style = \"comic\""));
-    page.send_text(view_message("explain", 3, 320, 240, "x = 160\ny = 120"));
-    EXPECT_NE(Json::parse(page.receive("explain", 3)->text)["lines"], "");
+    const Json styled = explained(1003, line_x, "reach = 5");
+    EXPECT_NE(styled["lines"], "");
+    EXPECT_EQ(styled["reasons"][0], reason);
 }
 
 TEST(View, AClosedPageLeavesNothingRunning) {

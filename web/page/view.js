@@ -8,6 +8,7 @@ const $ = selector => document.querySelector(selector);
 const canvas = $("#picture");
 let orbit = null, panel = null, view = null, toastTimer = 0, addressTimer = 0;
 let hasView = false;
+let explained = null;  // the place that was asked for last, while its view is shown
 let fittedBy = "";  // the kind of view that is shown as the server has fitted it to the size of the picture
 
 function toast(text, isFault = false) {
@@ -142,7 +143,7 @@ function listenToPointers() {
   };
   canvas.onpointerup = canvas.onpointercancel = event => {
     pointers.delete(event.pointerId);
-    if (isClick && event.type === "pointerup") explain(event.clientX, event.clientY);
+    if (isClick && event.type === "pointerup") explain(event);
     isClick = false;
   };
   canvas.oncontextmenu = event => event.preventDefault();
@@ -194,25 +195,39 @@ function togglePanel() {
 
 // ---- what is asked of the picture ----
 
-async function explain(clientX, clientY) {
-  const box = canvas.getBoundingClientRect(), message = view.message("explain");
-  const [width, height] = message.size;
-  const inside = (part, whole) => Math.max(0, Math.min(whole - 1, Math.floor(part * whole)));
-  message.x = inside((clientX - box.left) / box.width, width);
-  message.y = inside((clientY - box.top) / box.height, height);
-  const {camera, ...rest} = message;
-  $("#mark").style.left = (message.x + 0.5) / width * box.width + "px";
-  $("#mark").style.top = (message.y + 0.5) / height * box.height + "px";
+/** How far from a line a click may be, in pixels of the page. */
+const reach = {mouse: 5, pen: 8, touch: 16};
+
+function showMark(x, y, [width, height]) {
+  $("#mark").style.left = (x + 0.5) / width * canvas.clientWidth + "px";
+  $("#mark").style.top = (y + 0.5) / height * canvas.clientHeight + "px";
   $("#mark").hidden = false;
-  const answer = await view.connection.request({...rest, camera});
+}
+
+/** Says why the line is there that is nearest to a place. */
+async function explain({clientX, clientY, pointerType}) {
+  const box = canvas.getBoundingClientRect(), message = view.message("explain"), {size} = message;
+  const inside = (part, whole) => Math.max(0, Math.min(whole - 1, Math.floor(part * whole)));
+  message.x = inside((clientX - box.left) / box.width, size[0]);
+  message.y = inside((clientY - box.top) / box.height, size[1]);
+  message.reach = Math.min(64, Math.round((reach[pointerType] ?? reach.mouse) * size[0] / box.width));
+  showMark(message.x, message.y, size);
+  const asked = explained = Symbol();
+  const answer = await view.connection.request(message);
+  if (asked !== explained) return;  // another place was asked for, or the view has changed
   if (answer.kind === "error") return toast(answer.message, true);
-  $("#explained h2").textContent = `pixel ${message.x}, ${message.y}`;
-  $("#explained-lines").textContent = answer.lines.trim();
+  showMark(answer.x, answer.y, size);
+  $("#explained h2").textContent = `pixel ${answer.x}, ${answer.y}`;
+  const reasons = answer.reasons.length ? answer.reasons : ["no line is near"];
+  $("#explained-reasons").replaceChildren(...reasons.map(text => Object.assign(document.createElement("li"), {textContent: text})));
+  $("#explained-lines").textContent = answer.reasons.length ? answer.lines.trim() : "";
   $("#explained-fragments").textContent = answer.fragments.trim();
   $("#explained").hidden = false;
+  $("#explained").scrollTop = 0;
 }
 
 function closeExplained() {
+  explained = null;
   $("#explained").hidden = true;
   $("#mark").hidden = true;
 }
