@@ -3,9 +3,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "cli/seen_surfaces.h"
+#include "cli/vector_output.h"
 #include "methods/gbuffer/gbuffer.h"
 #include "methods/patel/patel.h"
+#include "methods/seen_surfaces.h"
 #include "render/picture_notes.h"
 
 namespace burin {
@@ -61,9 +62,7 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method, b
             "burin: note: --bits and --background are for PNG and TIFF; an EXR is half precision without paper\n",
             stderr);
     }
-    const SurfaceShading shading = frame.scene->surfaces.shading;
-    const bool has_look = shading != SurfaceShading::paper && shading != SurfaceShading::none;
-    if (paths > 0 && has_look && !draws_regions(*frame.scene, a)) {
+    if (paths > 0 && surfaces_have_look(*frame.scene) && !draws_regions(*frame.scene, a)) {
         std::fprintf(stderr, "burin: note: --page %s has lines only; the surfaces are left out\n",
                      std::string(page_of(a.page).name).c_str());
     }

@@ -5,8 +5,8 @@
 
 #include "base/stream_store.h"
 #include "cli/job.h"
-#include "cli/seen_surfaces.h"
 #include "methods/abuffer.h"
+#include "methods/seen_surfaces.h"
 #include "output/paths/view_sheet.h"
 
 namespace burin {

@@ -6,6 +6,7 @@
 
 #include "base/atomic_file.h"
 #include "base/stopwatch.h"
+#include "methods/seen_surfaces.h"
 #include "output/paths/path_order.h"
 #include "output/paths/surface_regions.h"
 #include "output/vector_files.h"
@@ -56,16 +57,16 @@ void note_on_looks(const Arguments& a, const VectorDrawing& drawing, std::vector
 
 }  // namespace
 
+bool draws_regions(const Scene& scene, const Arguments& a) {
+    return surfaces_have_look(scene) && (a.page == PagePreset::none || a.page == PagePreset::iso128);
+}
+
 void draw_regions(const SurfaceGrid& seen, VectorDrawing& drawing, VectorStats& stats,
                   std::vector<std::string>& notes) {
     const Stopwatch watch;
     add_surface_regions(seen, drawing);
     stats.regions_s = watch.seconds();
-    if (seen.mean_objects > 0) {
-        notes.push_back("a region has one colour: " + std::to_string(seen.mean_objects) +
-                        (seen.mean_objects == 1 ? " object that varies in it has its mean"
-                                                : " objects that vary in it have their means"));
-    }
+    if (std::string means = note_on_means(seen); !means.empty()) notes.push_back(std::move(means));
 }
 
 void finish_drawing(const PictureSettings& picture, const Arguments& a, VectorDrawing& drawing, VectorStats& stats,

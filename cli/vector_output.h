@@ -17,6 +17,10 @@ namespace burin {
 VectorDrawing draw_paths(const FoundLines& lines, const Frame& frame, const Arguments& arguments, VectorStats& stats,
                          std::vector<std::string>& notes, Progress* progress = nullptr);
 
+/// Whether a vector file has the surfaces of a scene as filled regions: where they have a look, and the page is no one
+/// of lines alone.
+bool draws_regions(const Scene& scene, const Arguments& arguments);
+
 /// Adds what is seen of surfaces to a drawing, below its lines. `notes`: gets what users should know.
 void draw_regions(const SurfaceGrid& seen, VectorDrawing& drawing, VectorStats& stats, std::vector<std::string>& notes);
 

@@ -9,8 +9,10 @@
 #include "methods/abuffer.h"
 #include "methods/explain_strokes.h"
 #include "methods/patel/explain.h"
+#include "methods/seen_surfaces.h"
 #include "output/film_files.h"
 #include "output/paths/make_paths.h"
+#include "output/paths/surface_regions.h"
 #include "output/vector_files.h"
 #include "render/close_cracks.h"
 #include "render/replaced_meshes.h"
@@ -148,10 +150,15 @@ std::string ViewDrawer::svg(const View& view, std::vector<std::string>& notes) {
         options.crop = frame.crop;
         VectorStats counts;
         VectorDrawing drawing = vector_drawing_of(std::move(inked), lines, options, counts);
+        if (std::string means = note_on_means(counts); !means.empty()) notes.push_back(std::move(means));
+        if (surfaces_have_look(*frame.scene)) {
+            const SurfaceGrid seen =
+                seen_surfaces(viewed_.scene(), frame.camera, frame.crop, {.threads = viewed_.threads()});
+            add_surface_regions(seen, drawing);
+            if (std::string means = note_on_means(seen); !means.empty()) notes.push_back(std::move(means));
+        }
         drawing.paper = frame.scene->picture.background;
         if (!drawing.paper && !frame.scene->picture.transparent) drawing.paper = glm::vec3(1.0f);
-        if (varies(frame.scene->surfaces.shading) || frame.scene->surfaces.shading == SurfaceShading::lambert)
-            notes.emplace_back("this SVG has lines alone; burin render SCENE -o NAME.svg has the surfaces, too");
         text = vector_file_of(drawing, OutputFormat::svg, {}, notes);
     });
     return text;

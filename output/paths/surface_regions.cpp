@@ -328,4 +328,11 @@ void add_surface_regions(const SurfaceGrid& grid, VectorDrawing& drawing) {
     drawing.groups.insert(drawing.groups.begin(), groups.begin(), groups.end());
 }
 
+std::string note_on_means(const SurfaceGrid& grid) {
+    if (grid.mean_objects == 0) return {};
+    return "a region has one colour: " + std::to_string(grid.mean_objects) +
+           (grid.mean_objects == 1 ? " object that varies in it has its mean"
+                                   : " objects that vary in it have their means");
+}
+
 }  // namespace burin

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "output/paths/surface_grid.h"
 #include "output/paths/vector_drawing.h"
 
@@ -10,5 +12,8 @@ namespace burin {
 /// one; it is no farther from places on its wrong side than the grid's places are from each other. Opaque
 /// regions have a thin stroke of their colour, so that viewers leave no light between neighbours.
 void add_surface_regions(const SurfaceGrid& grid, VectorDrawing& drawing);
+
+/// What users should know of objects that have their mean colour; empty: none has.
+std::string note_on_means(const SurfaceGrid& grid);
 
 }  // namespace burin

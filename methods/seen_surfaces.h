@@ -1,15 +1,14 @@
 #pragma once
 
-#include "cli/arguments.h"
 #include "output/paths/surface_grid.h"
 #include "render/method.h"
 #include "scene/scene.h"
 
 namespace burin {
 
-/// Whether a vector file has the surfaces of a scene as filled regions: where they have a look other than paper or
-/// none, and the page is no one of lines alone.
-bool draws_regions(const Scene& scene, const Arguments& arguments);
+/// Whether the surfaces of a scene have a look other than paper or none, so that vector files have them as filled
+/// regions.
+bool surfaces_have_look(const Scene& scene);
 
 /// Sees the surfaces of a scene on a grid that is up to three times as fine as pixels. `area`: of the picture. The
 /// scene is as before when it returns.

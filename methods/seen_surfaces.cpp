@@ -1,4 +1,4 @@
-#include "cli/seen_surfaces.h"
+#include "methods/seen_surfaces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -69,10 +69,8 @@ void add_rows(const Image& image, SurfaceGridMaker& maker) {
 
 }  // namespace
 
-bool draws_regions(const Scene& scene, const Arguments& a) {
-    const bool has_look =
-        scene.surfaces.shading != SurfaceShading::paper && scene.surfaces.shading != SurfaceShading::none;
-    return has_look && (a.page == PagePreset::none || a.page == PagePreset::iso128);
+bool surfaces_have_look(const Scene& scene) {
+    return scene.surfaces.shading != SurfaceShading::paper && scene.surfaces.shading != SurfaceShading::none;
 }
 
 SurfaceGrid seen_surfaces(Scene& scene, const Camera& camera, PixelRect area, const RunOptions& run) {
