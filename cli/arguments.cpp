@@ -10,6 +10,7 @@
 #include "base/suggestion.h"
 #include "base/version.h"
 #include "cli/completion.h"
+#include "cli/doubled_settings.h"
 #include "cli/fill_arguments.h"
 #include "cli/option_texts.h"
 #include "cli/option_values.h"
@@ -227,6 +228,14 @@ std::vector<std::string> arguments_without(const CLI::App& app, const std::vecto
     return arguments;
 }
 
+std::vector<std::string> given_options(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options()) {
+        if (option->count() > 0) names.push_back(option->get_name());
+    }
+    return names;
+}
+
 /// What was typed of the options that change a picture: all but those that do not.
 std::string picture_options(const CLI::App& app) {
     std::string text;
@@ -317,6 +326,22 @@ void put_command_first(const CLI::App& app, std::vector<std::string>& arguments)
     std::rotate(arguments.begin(), command, command + 1);
 }
 
+/// "--hidden=" is a script's empty variable, too: what stands behind it is no value of it.
+void refuse_empty_values(const CLI::App& app, const std::vector<std::string>& arguments) {
+    const CLI::App& command = *app.get_subcommand(arguments.front());
+    for (const std::string& argument : arguments) {
+        if (argument == "--") return;
+        if (!argument.starts_with("--") || argument.find('=') != argument.size() - 1) continue;
+        const CLI::Option* const option = command.get_option_no_throw(argument.substr(0, argument.size() - 1));
+        if (option != nullptr && option->get_items_expected_max() > 0) fail(option->get_name(), "the value is empty");
+    }
+}
+
+std::string help_of(const CLI::App& app) {
+    const auto commands = app.get_subcommands();
+    return "burin " + (commands.empty() ? "" : commands.front()->get_name() + " ") + "--help";
+}
+
 /// What was left over after parsing: an option that there is not, or one input too many.
 [[noreturn]] void refuse_unknown(const CLI::App& app) {
     const auto commands = app.get_subcommands();
@@ -324,8 +349,7 @@ void put_command_first(const CLI::App& app, std::vector<std::string>& arguments)
     const std::vector<std::string> rest = app.remaining(true);
     const auto unknown =
         std::find_if(rest.begin(), rest.end(), [](const std::string& r) { return r.size() > 1 && r[0] == '-'; });
-    const std::string help =
-        "; burin " + (commands.empty() ? "" : command.get_name() + " ") + "--help lists the options";
+    const std::string help = "; " + help_of(app) + " lists the options";
     if (unknown == rest.end()) {
         const auto all = command.get_options();
         const bool takes_input = std::any_of(all.begin(), all.end(), [](const auto* o) { return o->get_positional(); });
@@ -416,6 +440,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     const std::optional<std::string> input = take_input_behind_dashes(app, arguments);
     if (arguments.empty()) throw UsageError("give a command, for example: burin render model.obj -o lines.png");
     put_command_first(app, arguments);
+    if (is_command(app, arguments.front())) refuse_empty_values(app, arguments);
     std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
     try {
         app.parse(std::move(arguments));
@@ -431,11 +456,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     } catch (const CLI::ExtrasError&) {
         refuse_unknown(app);
     } catch (const CLI::ParseError& error) {
-        std::string message = error.what();
-        std::replace(message.begin(), message.end(), '\n', ' ');
-        const std::size_t twice = message.find(": At Most 1 required");
-        if (twice != std::string::npos) message = message.substr(0, twice) + ": is given more than once; remove one";
-        throw UsageError(message + "; see burin --help");
+        throw UsageError(in_our_words(error.what()) + "; see " + help_of(app));
     }
 
     for (const CLI::App* used : app.get_subcommands()) check_values(*used);
@@ -451,6 +472,10 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         if (*app_of) a.command = command;
     }
     fill_arguments(t, a);
+    for (const CLI::App* used : app.get_subcommands()) {
+        for (const std::string& note : notes_of_doubled_settings(given_options(*used), a.overrides))
+            if (!a.quiet) std::fprintf(stderr, "burin: note: %s\n", note.c_str());
+    }
     if (*render || *submit) a.picture_options = picture_options(*render ? *render : *submit);
     if (*submit) {
         a.skips_existing = true;

@@ -1,6 +1,7 @@
 #include "cli/completion.h"
 
 #include <algorithm>
+#include <exception>
 #include <iterator>
 #include <optional>
 #include <string_view>
@@ -25,6 +26,7 @@ struct Values {
     Words words;
     bool is_list = false;    ///< of words, separated by commas
     std::string files = {};  ///< the line for files
+    Words alone = {};        ///< words that stand beside no other in a list
 };
 
 template <class Range>
@@ -93,7 +95,7 @@ std::optional<Values> values_of_option(std::string_view command, std::string_vie
         {"--methods", {and_also(method_names(), {"svg"}), true}},
         {"--style", {style_names(), false, ":files toml"}},
         {"--page", {page_names()}},
-        {"--lines", {and_also(words_of(kLineClassNames), {"all", "none"}), true}},
+        {"--lines", {words_of(kLineClassNames), true, {}, {"all", "none"}}},
         {"--hidden", {{"none", "solid", "dashed"}}},
         {"--paper", {paper_names()}},
         {"--unit", {{"mm", "cm", "m", "in", "ft"}}},
@@ -118,6 +120,7 @@ std::optional<Values> values_of_option(std::string_view command, std::string_vie
         {"--compression", {{"zip", "zips", "rle", "none"}}},
         {"--blur-samples", {{"auto"}}},
         {"--progress", {{"alf"}}},
+        {"--deep", {{}, false, ":files exr"}},
         {"--save-lines", {{}, false, ":files lines"}},
         {"--stats", {{}, false, ":files json"}},
     };
@@ -154,9 +157,15 @@ void add_values(std::string& lines, const Values& values, std::string_view befor
     const std::size_t comma = values.is_list ? typed.rfind(',') : std::string_view::npos;
     const std::string_view done = comma == std::string_view::npos ? "" : typed.substr(0, comma + 1);
     const std::string_view begun = typed.substr(done.size());
+    const std::string_view first = done.substr(0, done.find(','));
+    if (std::find(values.alone.begin(), values.alone.end(), first) != values.alone.end()) return;
     for (const std::string& word : values.words) {
+        if (word == begun && word.ends_with('=')) continue;  // a value is typed
         const bool is_there = ("," + std::string(done)).find("," + word + ",") != std::string::npos;
         if (word.starts_with(begun) && !is_there) add_line(lines, std::string(before).append(done).append(word), "");
+    }
+    for (const std::string& word : values.alone) {
+        if (word.starts_with(typed)) add_line(lines, std::string(before).append(word), "");
     }
     if (!values.files.empty()) lines.append(values.files).append("\n");
 }
@@ -174,6 +183,38 @@ std::optional<std::string> option_with_value(const CompletedCommand& command, co
     const CompletedOption* const option = find_option(command, word);
     if (option == nullptr || !option->takes_value) return std::nullopt;
     return option->names.back();
+}
+
+/// What the option `name` was given among `words`; nothing if it was not.
+std::optional<std::string> value_given(const CompletedCommand& command, std::span<const std::string> words,
+                                       std::string_view name) {
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (words[i].starts_with(std::string(name) + "=")) return words[i].substr(name.size() + 1);
+        if (i + 1 < words.size() && option_with_value(command, words[i]) == name) return words[i + 1];
+    }
+    return std::nullopt;
+}
+
+/// Of --set: the parameters of the style sheet that --style names.
+Values settings_of(const CompletedCommand& command, std::span<const std::string> before) {
+    Values values;
+    const auto style = value_given(command, before, "--style");
+    if (!style) return values;
+    try {
+        const auto source = find_sheet(*style, {});
+        if (!source) return values;
+        for (const SheetParameter& parameter : read_sheet(*source).parameters)
+            values.words.push_back("style." + parameter.name + "=");
+    } catch (const std::exception&) {  // it is wrong, or not there: the program will say so
+        values.words.clear();
+    }
+    return values;
+}
+
+std::optional<Values> values_for(const CompletedCommand& command, std::string_view option,
+                                 std::span<const std::string> before) {
+    if (option == "--set") return settings_of(command, before);
+    return values_of_option(command.name, option);
 }
 
 }  // namespace
@@ -196,7 +237,7 @@ std::string completions(std::span<const CompletedCommand> commands, std::span<co
     if (command->name.empty() && !before.empty() && !before.front().starts_with('-')) return lines;  // is refused
     if (!before.empty() && std::find(before.begin(), before.end(), "--") == before.end()) {
         if (const auto option = option_with_value(*command, before.back())) {
-            if (const auto values = values_of_option(command->name, *option)) add_values(lines, *values, "", typed);
+            if (const auto values = values_for(*command, *option, before)) add_values(lines, *values, "", typed);
             return lines;
         }
     }
@@ -205,7 +246,7 @@ std::string completions(std::span<const CompletedCommand> commands, std::span<co
         if (equals == std::string::npos) {
             add_options(lines, *command, typed);
         } else if (const CompletedOption* const option = find_option(*command, typed.substr(0, equals))) {
-            const auto values = values_of_option(command->name, option->names.back());
+            const auto values = values_for(*command, option->names.back(), before);
             if (values) add_values(lines, *values, typed.substr(0, equals + 1), typed.substr(equals + 1));
         }
     } else if (command->name.empty()) {

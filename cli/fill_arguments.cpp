@@ -117,6 +117,7 @@ void fill_scene_options(const Texts& t, Arguments& a) {
     if (!t.threads.empty()) a.threads = integer("--threads", t.threads, 0, 1024);
     a.verbose = t.verbose > 0;
     a.quiet = t.quiet;
+    if (a.verbose && a.quiet) fail("-v", "cannot stand beside -q; remove one");
 }
 
 void fill_render_options(const Texts& t, Arguments& a) {

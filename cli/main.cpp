@@ -77,6 +77,27 @@ void run(const burin::Arguments& arguments) {
     }
 }
 
+/// Commands that only print end without a word when their reader goes away, as other programs do. The others have a
+/// file to finish.
+bool only_prints(const burin::Arguments& arguments) {
+    switch (arguments.command) {
+        case burin::Command::info:
+        case burin::Command::explain:
+        case burin::Command::methods:
+        case burin::Command::styles:
+            return true;
+        case burin::Command::render:
+        case burin::Command::submit:
+            return arguments.is_dry_run;
+        case burin::Command::restyle:
+        case burin::Command::compare:
+        case burin::Command::assemble:
+        case burin::Command::view:
+            return false;
+    }
+    return false;
+}
+
 /// What was printed must have arrived.
 void check_standard_output() {
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
@@ -88,16 +109,18 @@ void check_standard_output() {
 
 int main(int argc, char** argv) {
     open_missing_standard_streams();
-    // Files beyond a limit and closed pipes show as errors of the writes, so that nothing is left
-    // lying around.
+    // Files beyond a limit, and closed pipes where there are files, show as errors of the writes, so that nothing is
+    // left lying around.
     std::signal(SIGXFSZ, SIG_IGN);
-    std::signal(SIGPIPE, SIG_IGN);
     burin::install_interrupt_handlers();
     burin::MappedFile::end_process_where_files_are_cut();
     std::set_terminate(end_without_memory);
     try {
         burin::check_instruction_set();
-        if (const auto arguments = burin::parse_arguments(argc, argv)) run(*arguments);
+        if (const auto arguments = burin::parse_arguments(argc, argv)) {
+            if (!only_prints(*arguments)) std::signal(SIGPIPE, SIG_IGN);
+            run(*arguments);
+        }
         check_standard_output();
         return kDone;
     } catch (const burin::UsageError& error) {

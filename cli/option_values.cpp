@@ -47,6 +47,18 @@ std::vector<std::string> join_negative_values(int argc, char** argv) {
     return arguments;
 }
 
+std::string in_our_words(std::string message) {
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    const std::pair<std::string_view, std::string_view> rewordings[] = {
+        {": At Most 1 required", ": is given more than once; remove one"},
+        {": 1 required TEXT missing", ": a value is missing"}};
+    for (const auto& [theirs, ours] : rewordings) {
+        const std::size_t at = message.find(theirs);
+        if (at != std::string::npos) message = message.substr(0, at).append(ours);
+    }
+    return message;
+}
+
 std::vector<std::string> words(std::string_view text) {
     std::vector<std::string> all;
     for (const std::string_view part : split(text, ',')) {
@@ -112,12 +124,15 @@ glm::dvec3 vector(const std::string& option, std::string_view text) {
 
 LineClassSet line_classes(std::string_view text) {
     LineClassSet classes;
-    for (const std::string_view name : split(text, ',')) {
+    const std::vector<std::string_view> names = split(text, ',');
+    for (const std::string_view name : names) {
         if (name == "all") {
             classes = LineClassSet::all();
         } else if (const auto line_class = line_class_named(name)) {
             classes |= *line_class;
-        } else if (name != "none") {
+        } else if (name == "none") {
+            if (names.size() > 1) fail("--lines", "none cannot stand beside other words; remove one");
+        } else {
             fail("--lines", "unknown line class '" + printable(name) + "'; known are " +
                                 to_string(LineClassSet::all()) + ",all,none");
         }

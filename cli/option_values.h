@@ -20,6 +20,8 @@ namespace burin::option_values {
 
 /// Values may begin with a minus: "--eye -1,2,3" becomes "--eye=-1,2,3", and "-f -5:5" is "--frames=-5:5".
 std::vector<std::string> join_negative_values(int argc, char** argv);
+/// What CLI11 says against a command line, without its jargon.
+std::string in_our_words(std::string message);
 /// Words, each once, in the order given.
 std::vector<std::string> words(std::string_view text);
 std::vector<std::string_view> split(std::string_view text, char separator);

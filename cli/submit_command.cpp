@@ -137,6 +137,27 @@ class ScriptFolder {
     std::string path_;
 };
 
+/// The folder for what tasks print. One that was made for tasks that never were is taken away again.
+class LogFolder {
+  public:
+    explicit LogFolder(std::string path) : path_(std::move(path)) {
+        std::error_code error;
+        is_mine_ = std::filesystem::create_directories(path_, error);
+        if (error) throw InputError(path_ + ": cannot be made: " + error.message());
+    }
+    ~LogFolder() {
+        std::error_code error;
+        if (is_mine_) std::filesystem::remove(path_, error);  // if it is empty
+    }
+    LogFolder(const LogFolder&) = delete;
+    LogFolder& operator=(const LogFolder&) = delete;
+    void keep() { is_mine_ = false; }
+
+  private:
+    std::string path_;
+    bool is_mine_ = false;
+};
+
 /// Gives a script to sbatch. Returns the job's number.
 std::string submitted(const std::string& sbatch, const std::string& script, std::vector<std::string> options) {
     const ScriptFolder folder;
@@ -178,10 +199,9 @@ void run_submit(const Arguments& a) {
     }
     const std::string sbatch = find_program("sbatch");
     if (sbatch.empty()) throw InputError("sbatch not found; --dry-run prints the scripts");
-    std::error_code error;
-    std::filesystem::create_directories(farm.log_folder, error);
-    if (error) throw InputError(farm.log_folder + ": cannot be made: " + error.message());
+    LogFolder logs(farm.log_folder);
     const std::string tasks = submitted(sbatch, scripts.render, a.sbatch_options);
+    logs.keep();
     std::vector<std::string> after = a.sbatch_options;
     after.push_back("--dependency=afterany:" + tasks);
     const std::string collect = submitted(sbatch, scripts.collect, after);

@@ -16,9 +16,10 @@ namespace burin {
 namespace {
 
 /// Has the desktop show a page in the user's browser, if there is a desktop. What that prints is nobody's concern here.
-void open_browser(const std::string& url) {
+/// False if there is nothing that could show it.
+bool open_browser(const std::string& url) {
     const auto is_set = [](const char* name) { return std::getenv(name) != nullptr && *std::getenv(name) != '\0'; };
-    if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) return;
+    if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) return true;
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
     for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
@@ -29,9 +30,10 @@ void open_browser(const std::string& url) {
     std::string program = "xdg-open", address = url;
     char* const arguments[] = {program.data(), address.data(), nullptr};
     pid_t child = 0;
-    posix_spawnp(&child, program.c_str(), &files, &attributes, arguments, environ);
+    const int error = posix_spawnp(&child, program.c_str(), &files, &attributes, arguments, environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
+    return error == 0;
 }
 
 }  // namespace
@@ -48,7 +50,10 @@ void run_view(const Arguments& a) {
     std::printf("%s\n", server.url().c_str());
     if (std::fflush(stdout) != 0)
         throw InputError("standard output: cannot write the page's address; is the reader gone?");
-    if (a.opens_browser) open_browser(server.url());
+    if (a.opens_browser && !open_browser(server.url()) && !a.quiet)
+        std::fputs(
+            "burin: note: xdg-open (package xdg-utils) is not there to open a browser; open the address in one\n",
+            stderr);
     server.run();
 }
 

@@ -28,3 +28,12 @@ install(FILES ${PROJECT_BINARY_DIR}/burin.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}
 # The add-on for Blender; docs/blender.md says how Blender finds it.
 install(DIRECTORY blender/burin_blender DESTINATION ${CMAKE_INSTALL_DATADIR}/burin/blender
     PATTERN __pycache__ EXCLUDE)
+
+# Pages that messages and manual pages name, scenes that their commands draw, and files that they link to.
+install(FILES README.md CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs scenes styles DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY python/notebooks DESTINATION ${CMAKE_INSTALL_DOCDIR}/python FILES_MATCHING PATTERN *.ipynb)
+foreach(linked bench/python_frame.py blender/burin_blender/child.py burin/burin.h burin/burin.hpp fuzz/README.md)
+    get_filename_component(linked_folder ${linked} DIRECTORY)
+    install(FILES ${linked} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${linked_folder})
+endforeach()

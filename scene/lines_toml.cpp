@@ -24,13 +24,16 @@ std::vector<std::string> separated(const std::vector<std::string>& texts) {
 
 LineClassSet read_classes(TomlReader& t) {
     LineClassSet classes;
-    for (const std::string& name : separated(*t.texts("draw"))) {
+    const std::vector<std::string> names = separated(*t.texts("draw"));
+    for (const std::string& name : names) {
         const auto line_class = line_class_named(name);
         if (name == "all") {
             classes = LineClassSet::all();
         } else if (line_class) {
             classes |= *line_class;
-        } else if (name != "none") {
+        } else if (name == "none") {
+            if (names.size() > 1) t.fail("draw", "none cannot stand beside other words; remove one");
+        } else {
             t.fail("draw", "unknown line class '" + printable(name) + "'; known are " + to_string(LineClassSet::all()) +
                                ",all,none");
         }

@@ -16,16 +16,17 @@ _burin_files() {
 
 _burin() {
     local words=() word line option=
-    # bash takes words apart at "=": --hidden = dashed
+    # bash takes words apart at "=": --hidden = dashed, --set style.width = 3
     for word in "${COMP_WORDS[@]:1:COMP_CWORD}"; do
-        if [[ ${#words[@]} -gt 0 && ($word == "=" || ${words[-1]} == --*=) ]]; then
+        if [[ ${#words[@]} -gt 0 && ($word == "=" || ${words[-1]} == --*= ||
+            (${words[-1]} == *= && ${#words[@]} -gt 1 && ${words[-2]} == --set)) ]]; then
             words[-1]+=$word
         else
             words+=("$word")
         fi
     done
     # ... and replaces only what is behind it.
-    if [[ ${words[-1]} == --*=* && $COMP_WORDBREAKS == *=* ]]; then option=${words[-1]%%=*}=; fi
+    if [[ ${words[-1]} == --*=* && $COMP_WORDBREAKS == *=* ]]; then option=${words[-1]%=*}=; fi
     COMPREPLY=()
     while IFS= read -r line; do
         case $line in
@@ -35,6 +36,8 @@ _burin() {
             *) line=${line%%$'\t'*} && COMPREPLY+=("${line#"$option"}") ;;
         esac
     done < <("$1" --complete "${words[@]}" 2>/dev/null)
+    # A value follows at once.
+    if [[ ${COMPREPLY[0]-} == *= ]]; then compopt -o nospace 2>/dev/null; fi
 }
 
 complete -F _burin burin

@@ -28,7 +28,11 @@ ENVIRONMENT = {
     "BURIN_STYLES": "Folders of style sheets, separated by colons.",
     "BURIN_KERNELS": "The vector instructions to use at most: baseline, avx2 or avx512. Pictures do not depend on it.",
 }
-FILES = {"~/.config/burin/styles/NAME.toml": "Style sheets of the user, which --style finds by their name."}
+FILES = {
+    "PREFIX/share/doc/burin": "The pages docs/NAME.md that messages name, and the scenes that their examples draw. PREFIX "
+    "is where Burin was installed: /usr, if by packages.",
+    "~/.config/burin/styles/NAME.toml": "Style sheets of the user, which --style finds by their name.",
+}
 
 ABOUT = """Burin draws 3D models as lines: silhouettes, creases, borders and intersections, with hidden lines removed or
 dashed, and anti-aliased. It reads OBJ, PLY, STL, OFF, glTF and GLB, and scenes of its own in TOML. It writes PNG, TIFF

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <nlohmann/json.hpp>
 
 #include "lines/line_class.h"
@@ -226,6 +227,32 @@ TEST(Commands, WhatCannotBePrintedIsAFailure) {
         EXPECT_EQ(result.status, 1) << arguments[0];
         EXPECT_TRUE(is_one_line(result.err)) << result.err;
     }
+}
+
+TEST(Commands, AReaderThatGoesAwayIsNoFaultOfAListing) {
+    const TemporaryFolder folder;
+    folder.write("cube.obj", kCubeObj);
+    ProgramOptions gone;
+    gone.has_reader = false;
+    for (const std::vector<std::string>& arguments :
+         std::vector<std::vector<std::string>>{{"styles"},
+                                               {"styles", "pencil"},
+                                               {"methods", "--json"},
+                                               {"info", "cube.obj"},
+                                               {"explain", "cube.obj", "--pixel", "1,1"},
+                                               {"render", "cube.obj", "--dry-run"},
+                                               {"--help-all"},
+                                               {"--version"}}) {
+        const ProgramResult result = run_burin(folder.path(), arguments, gone);
+        EXPECT_EQ(result.status, 128 + SIGPIPE) << arguments[0];
+        EXPECT_EQ(result.err, "") << arguments[0];
+    }
+    // Where there is a file, too, it is finished, and what is lost is said.
+    const ProgramResult result =
+        run_burin(folder.path(), {"render", "cube.obj", "-o", "a.exr", "-r", "9x9", "--stats", "-"}, gone);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_TRUE(contains(result.err, "standard output: cannot write")) << result.err;
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.exr", "cube.obj"}));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <sstream>
@@ -70,12 +71,37 @@ TEST_F(Completion, ListsGoOnBehindACommaWithoutWhatIsThere) {
     EXPECT_EQ(offered({"render", "--lines", "crease,cr"}), Words{});
     EXPECT_EQ(offered({"compare", "--methods=patel,sv"}), (Words{"--methods=patel,svg"}));
     EXPECT_EQ(offered({"render", "--hidden", "none,d"}), Words{});
+    // What contradicts the rest of a list, or says nothing more.
+    EXPECT_EQ(offered({"render", "--lines", "a"}), (Words{"all"}));
+    EXPECT_EQ(offered({"render", "--lines", "n"}), (Words{"none"}));
+    for (const char* typed : {"all,", "none,", "crease,n", "crease,a", "crease,border,n"})
+        EXPECT_EQ(offered({"render", "--lines", typed}), Words{}) << typed;
+}
+
+TEST_F(Completion, ParametersOfTheStyleSheet) {
+    const Words of_pencil = offered({"render", "--style", "pencil", "--set", "style."});
+    EXPECT_NE(std::find(of_pencil.begin(), of_pencil.end(), "style.roughness="), of_pencil.end());
+    EXPECT_EQ(offered({"render", "--style=pencil", "a.obj", "--set", "style.rou"}), (Words{"style.roughness="}));
+    EXPECT_EQ(offered({"restyle", "--style", "pencil", "--set=style.rou"}), (Words{"--set=style.roughness="}));
+    EXPECT_EQ(offered({"view", "--style", "pencil", "--set", "style.rou"}), (Words{"style.roughness="}));
+    // A value stands there already.
+    for (const char* typed : {"style.roughness=", "style.roughness=3"})
+        EXPECT_EQ(offered({"render", "--style", "pencil", "--set", typed}), Words{}) << typed;
+    folder_.write("mine.toml",
+                  "style_version = 1\n[parameters]\nreach = 2\n[[set]]\nname = \"a\"\nclasses = [\"crease\"]\n"
+                  "style = \"b\"\n[style.b]\nwidth = \"=reach\"\n");
+    EXPECT_EQ(offered({"render", "--style", "mine.toml", "--set", ""}), (Words{"style.reach="}));
+    folder_.write("wrong.toml", "style_version = 1\n[[set\n");
+    for (const char* sheet : {"wrong.toml", "none.toml", "nobody"})
+        EXPECT_EQ(offered({"render", "--style", sheet, "--set", "style."}), Words{}) << sheet;
+    EXPECT_EQ(offered({"render", "--set", "style."}), Words{});
 }
 
 TEST_F(Completion, Files) {
     EXPECT_EQ(offered({"render", ""}), (Words{":files toml obj ply stl off gltf glb"}));
     EXPECT_EQ(offered({"restyle", ""}), (Words{":files lines"}));
     EXPECT_EQ(offered({"render", "-o", ""}), (Words{":files exr png tif svg pdf dxf"}));
+    EXPECT_EQ(offered({"render", "--deep", ""}), (Words{":files exr"}));
     EXPECT_EQ(offered({"compare", "-o", ""}), (Words{":folders"}));
     EXPECT_TRUE(offered({"methods", ""}).empty());
 }
@@ -96,14 +122,17 @@ TEST_F(Completion, OffersWhatTheProgramTakes) {
     for (const std::string& option : offered({"render", "--"})) {
         Words typed = {"render", "none.toml"};
         if (const auto other = needed.find(option); other != needed.end()) typed.push_back(other->second);
-        std::string list;
         for (const std::string& word : offered({"render", option, ""})) {
             if (option == "--help" || word.starts_with(":")) continue;
-            list += (list.empty() ? "" : ",") + word;
-            if (!lists.contains(option)) expect_taken(typed, option, word);
+            expect_taken(typed, option, word);
             ++count;
         }
-        if (lists.contains(option)) expect_taken(typed, option, list);
+        if (!lists.contains(option)) continue;
+        std::string list;  // as long as it goes on
+        for (Words more = offered({"render", option, ""}); !more.empty();
+             more = offered({"render", option, list + ","}))
+            list = more.front();
+        expect_taken(typed, option, list);
     }
     EXPECT_GT(count, 100);
     for (const std::string& word : offered({"compare", "--methods", ""}))

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -158,6 +160,28 @@ TEST(Submit, BandsAreTasksOfTheirOwn) {
               "burin: --bands: a picture of 70 rows has 5 bands at most\n");
     EXPECT_EQ(error_of({"-o", "o.##.exr", "-f", "1-3", "--bands", "2", "--crop", "0,0,9,9"}),
               "burin: --bands: cannot stand beside --crop; remove one\n");
+}
+
+TEST(Submit, FoldersOfJobsThatAreNotTakenAreNotLeft) {
+    const TemporaryFolder folder;
+    folder.write("shot.toml", kShot);
+    std::filesystem::create_directory(folder.file("bin"));
+    const std::string sbatch = folder.write("bin/sbatch", "#!/bin/sh\necho 'no partition' >&2\nexit 1\n");
+    ASSERT_EQ(::chmod(sbatch.c_str(), 0755), 0);
+    const std::string old_path = std::getenv("PATH");
+    ::setenv("PATH", (folder.file("bin") + ":" + old_path).c_str(), 1);
+    const std::vector<std::string> submit = {"submit", "shot.toml", "-r", "64x48", "-o", "o.##.exr", "-f", "1-3"};
+    const std::vector<std::string> before = folder.names();
+    EXPECT_EQ(run_burin(folder.path(), submit).status, 1);
+    EXPECT_EQ(folder.names(), before);
+    // One that was there stays, and so does that of a job that was taken.
+    std::filesystem::create_directory(folder.file("burin-logs"));
+    EXPECT_EQ(run_burin(folder.path(), submit).status, 1);
+    EXPECT_TRUE(std::filesystem::remove(folder.file("burin-logs")));
+    folder.write("bin/sbatch", "#!/bin/sh\necho 17\n");
+    EXPECT_EQ(run_burin(folder.path(), submit).status, 0);
+    EXPECT_TRUE(std::filesystem::is_directory(folder.file("burin-logs")));
+    ::setenv("PATH", old_path.c_str(), 1);
 }
 
 TEST(Submit, WithoutSlurmSaysSo) {

@@ -157,5 +157,53 @@ TEST(Notes, PolygonsThatWereCutAreCounted) {
     EXPECT_EQ(run_burin(folder.path(), {"info", "b.obj"}).out.find("  cut "), std::string::npos);
 }
 
+// An option is stronger than --set, but not without a word.
+TEST(Notes, OfSetsThatAnOptionMakesUseless) {
+    const TemporaryFolder folder;
+    folder.write("cube.toml",
+                 "[[object]]\nshape = \"box\"\n[[camera]]\nname = \"a\"\neye = [1, 2, 9]\n[[camera]]\nname = "
+                 "\"b\"\neye = [2, 2, 9]\n");
+    const struct {
+        std::vector<std::string> option;
+        std::string set, name;
+        std::vector<std::string> more;
+    } pairs[] = {
+        {{"-w", "3"}, "style.width=8", "--line-width", {"--style", "comic"}},
+        {{"--color", "#102030"}, "style.color=#405060", "--color", {"--style", "comic"}},
+        {{"-w", "3"}, "lines.width=8", "--line-width", {}},
+        {{"--lines", "crease"}, "lines.draw=all", "--lines", {}},
+        {{"--hidden", "dashed"}, "lines.hidden.style=solid", "--hidden", {}},
+        {{"--crease-angle", "20"}, "lines.crease_angle=30", "--crease-angle", {}},
+        {{"--eye", "1,2,3"}, "camera.0.eye=4,5,6", "--eye", {}},
+        {{"--shutter", "-1,1"}, "shutter.close=2", "--shutter", {}},
+        {{"--background", "#ffffff"}, "picture.background=#000000", "--background", {}},
+    };
+    const auto render = [&](const std::vector<std::string>& words) {
+        std::vector<std::string> arguments = {"render", "cube.toml", "-r", "24x16", "-o", "a.png"};
+        for (const std::string& word : words) arguments.push_back(word);
+        const ProgramResult result = run_burin(folder.path(), arguments);
+        EXPECT_EQ(result.status, 0) << result.err;
+        return result.err;
+    };
+    for (const auto& [option, set, name, more] : pairs) {
+        std::vector<std::string> words = option;
+        words.insert(words.end(), more.begin(), more.end());
+        render(words);
+        const std::string alone = read_file(folder.file("a.png"));
+        words.insert(words.end(), {"--set", set});
+        const std::string note = "burin: note: --set " + set.substr(0, set.find('=')) + " is left out: " + name +
+                                 " says the same, and is stronger\n";
+        EXPECT_NE(render(words).find(note), std::string::npos) << note;
+        EXPECT_TRUE(read_file(folder.file("a.png")) == alone) << set;
+        words.emplace_back("-q");
+        EXPECT_EQ(render(words), "");
+    }
+    // Others stand beside each other.
+    EXPECT_EQ(render({"-w", "3", "--set", "lines.hidden.width=2", "--eye", "1,2,3", "--set", "camera.1.target=0,0,0",
+                      "--set", "lines.color=#102030"})
+                  .find("is left out"),
+              std::string::npos);
+}
+
 }  // namespace
 }  // namespace burin::test::notes_test

@@ -63,6 +63,7 @@ Program::Program(const std::string& folder, const std::vector<std::string>& argu
     argv.push_back(nullptr);
 
     const Pipe out = make_pipe();
+    if (!options.has_reader) ::close(out.read_end);
     const Pipe err = options.stderr_is_terminal ? make_terminal() : make_pipe();
     child_ = ::fork();
     if (child_ < 0) throw std::runtime_error("no process");
@@ -89,7 +90,7 @@ Program::Program(const std::string& folder, const std::vector<std::string>& argu
     }
     ::close(out.write_end);
     ::close(err.write_end);
-    out_ = out.read_end;
+    out_ = options.has_reader ? out.read_end : -1;
     err_ = err.read_end;
 }
 

@@ -21,6 +21,7 @@ struct ProgramOptions {
     std::optional<std::size_t> memory_limit;     ///< bytes, less than what every run is limited to
     std::vector<int> closed_streams;             ///< standard streams that are closed: 0, 1, 2
     std::string stdout_file;                     ///< instead of a pipe
+    bool has_reader = true;                      ///< else what standard output leads to is gone
     bool stderr_is_terminal = false;
     bool obeys_permissions = false;  ///< even where root runs the tests
 };

@@ -264,7 +264,6 @@ TEST_F(Render, Lines) {
     EXPECT_GT(sum(exr({"--lines", "all"}), "lines.A"), 0.99 * usual);
     // Every side of a cube is one polygon: no line where its two triangles meet.
     EXPECT_TRUE(bytes({"--lines", "silhouette,crease"}) == bytes({"--lines", "crease,silhouette"}));
-    EXPECT_TRUE(bytes({"--lines", "none,crease"}) == bytes({"--lines", "crease"}));
 }
 
 TEST_F(Render, WidthsAnglesAndMasks) {

@@ -1,10 +1,11 @@
-// The pages on style sheets, and those that one reads first: sheets and scenes stand there in full, and commands work
-// as they stand.
+// The pages on style sheets, and those that one reads first: sheets and scenes stand there in full, commands work as
+// they stand, and their pictures have the size of those that the pages show.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <sstream>
 #include <string>
@@ -72,7 +73,7 @@ TEST(StylePages, HaveTheSheetsInFull) {
 
 TEST(StylePages, CommandsWorkAsTheyStand) {
     int count = 0;
-    for (const char* name : {"shading.md", "gallery.md", "start.md", "../README.md"}) {
+    for (const char* name : {"shading.md", "gallery.md", "start.md", "surfaces.md", "../README.md"}) {
         const TemporaryFolder folder;
         folder.write("mine.toml", read_file(kRoot / "docs/examples/start.toml"));
         for (const char* part : {"docs", "scenes"}) fs::create_directory_symlink(kRoot / part, folder.file(part));
@@ -86,6 +87,70 @@ TEST(StylePages, CommandsWorkAsTheyStand) {
         }
     }
     EXPECT_GE(count, 20);
+}
+
+/// The pictures of a page by their names: "pictures/start/first.png" is first.png.
+std::map<std::string, fs::path> pictures_of(const std::string& page) {
+    std::map<std::string, fs::path> pictures;
+    const std::string begin = "](pictures/";
+    for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at + 1)) {
+        const fs::path picture = page.substr(at + 2, page.find(')', at) - at - 2);
+        pictures[picture.filename()] = kRoot / "docs" / picture;
+    }
+    return pictures;
+}
+
+/// Of a PNG: its size in pixels, as its header has it.
+std::string size_of_png(const fs::path& file) { return read_file(file).substr(16, 8); }
+
+// Lines of a picture of another size look finer or coarser.
+TEST(StylePages, CommandsDrawPicturesOfTheSizeThatTheirPageShows) {
+    int count = 0;
+    for (const char* name : {"start.md", "shading.md", "surfaces.md"}) {
+        const TemporaryFolder folder;
+        folder.write("mine.toml", read_file(kRoot / "docs/examples/start.toml"));
+        for (const char* part : {"docs", "scenes"}) fs::create_directory_symlink(kRoot / part, folder.file(part));
+        const std::map<std::string, fs::path> pictures = pictures_of(page(name));
+        for (const Command& command : commands_in(page(name))) {
+            const auto shown = pictures.find(command.arguments.back());
+            if (command.arguments.front() != "render" || shown == pictures.end()) continue;
+            EXPECT_EQ(run_burin(folder.path(), command.arguments).status, 0) << name << ": " << shown->first;
+            EXPECT_EQ(size_of_png(folder.file(shown->first)), size_of_png(shown->second)) << shown->second;
+            ++count;
+        }
+    }
+    EXPECT_GE(count, 19);
+}
+
+// A page overwrites no scene of a page that leads to it.
+TEST(StylePages, PagesWriteNoSceneOfOthers) {
+    for (const char* name : {"start.md", "shading.md", "gallery.md", "surfaces.md", "vector.md"}) {
+        for (const Command& command : commands_in(page(name))) EXPECT_NE(command.stdout_file, "mine.toml") << name;
+    }
+}
+
+/// Pages whose first scene is one to save, and to draw by the commands that name it.
+TEST(StylePages, ScenesOfSequencesAreDrawn) {
+    const struct {
+        const char *page, *scene;
+    } scenes[] = {{"pipeline.md", "shot.toml"}, {"pipeline/blur.md", "scene.toml"}};
+    for (const auto& [name, scene] : scenes) {
+        const TemporaryFolder folder;
+        const std::string text = page(name), begin = "```toml\n";
+        const std::size_t at = text.find(begin) + begin.size();
+        EXPECT_NE(text.substr(0, at).find(scene), std::string::npos) << name;
+        folder.write(scene, text.substr(at, text.find("```\n", at) - at));
+        fs::create_directory(folder.file("out"));
+        fs::create_directory_symlink(kRoot / "scenes", folder.file("scenes"));
+        int count = 0;
+        for (Command& command : commands_in(text)) {
+            command.arguments.insert(command.arguments.end(), {"--size", "48x27"});
+            const ProgramResult result = run_burin(folder.path(), command.arguments);
+            EXPECT_EQ(result.status, 0) << name << ": " << command.arguments[1] << "\n" << result.err;
+            ++count;
+        }
+        EXPECT_EQ(count, 2) << name;
+    }
 }
 
 TEST(StylePages, StartHasItsSceneInFull) {

@@ -195,6 +195,24 @@ TEST_F(Usage, Overrides) {
     expect_bad_options({"--set", "lines.color=a\nb"}, "a?b");  // still one line
 }
 
+TEST_F(Usage, EmptyAndMissingValues) {
+    for (const char* option : {"--hidden", "--output", "--eye", "--set", "--line-width", "--style"}) {
+        const std::string message = std::string("burin: ") + option + ": the value is empty\n";
+        // Neither is what stands behind it its value.
+        expect_refused({"render", std::string(option) + "=", "cube.obj"}, message);
+        expect_refused({"render", "cube.obj", std::string(option) + "="}, message);
+    }
+    expect_refused({"render", "cube.obj", "--hidden"}, "--hidden: a value is missing; see burin render --help");
+    expect_refused({"render"}, "INPUT is required; see burin render --help");
+    expect_refused({"compare", "cube.obj"}, "--output is required; see burin compare --help");
+}
+
+TEST_F(Usage, WordsThatContradictEachOther) {
+    expect_bad_options({"-v", "-q"}, "-v: cannot stand beside -q; remove one");
+    for (const char* classes : {"all,none", "none,all", "none,crease"})
+        expect_bad_options({"--lines", classes}, "--lines: none cannot stand beside other words; remove one");
+}
+
 TEST_F(Usage, StatsMustNotDestroyFiles) {
     expect_refused({"render", "cube.obj", "-o", "out.exr", "--stats", "out.exr"}, "--stats: would overwrite");
     expect_refused({"render", "cube.obj", "-o", "out.exr", "--stats", "./cube.obj"}, "--stats: would overwrite");

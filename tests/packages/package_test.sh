@@ -13,7 +13,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 "$source/scripts/package" --build-folder "$build" --output "$folder/packages" >"$folder/complaints" || { cat "$folder/complaints"; fail "they cannot be built"; }
 # What lintian says stands above the list of packages.
-[ "$(wc -l <"$folder/complaints")" -eq 5 ] || fail "lintian: $(cat "$folder/complaints")"
+[ "$(wc -l <"$folder/complaints")" -eq 6 ] || fail "lintian: $(cat "$folder/complaints")"
 
 cat >"$folder/in_root" <<'END'
 set -euo pipefail
@@ -29,6 +29,11 @@ for name in burin libburin.so.0; do ! find "$1/root/usr/bin" "$1/root/usr/lib" -
 
 here "$1" sh -c 'dpkg --install /tmp/packages/*.deb' >"$1/log" 2>&1 || { cat "$1/log" >&2; fail "they cannot be installed"; }
 here "$1" sh /tmp/packages/draw
+# Messages name pages; README.md links to them.
+for page in README.md docs/scene-format.md docs/pipeline/farm.md docs/compare.md docs/pictures/engine.png; do
+    [ -s "$1/root/usr/share/doc/burin/$page" ] || fail "$page is not there"
+done
+here "$1" sh -c 'cd /usr/share/doc/burin && burin render -q scenes/engine.toml --size 64x48 -o /tmp/engine.png' || fail "the pages' scenes"
 here "$1" man burin-render | grep -q -- --crease-angle || fail "man burin-render shows nothing"
 here "$1" man -w burin >/dev/null || fail "man burin"
 [ "$(here "$1" bash /tmp/packages/bash_completion.sh /usr/share/bash-completion/completions/burin 'burin render --cr' | paste -sd' ')" = '--crease-angle --crop' ] || fail "completion"
@@ -39,7 +44,7 @@ print("add-on", burin_blender.__file__, addon_utils.check("burin_blender"))' >"$
 grep -q "^add-on /usr/share/blender/scripts/addons/burin_blender/__init__.py (.*, True)" "$1/log" || { cat "$1/log" >&2; fail "Blender does not load the add-on"; }
 here "$1" blender -b --factory-startup --addons burin_blender -E BURIN -o /tmp/packages/blender_#### -f 1 >"$1/log" 2>&1 || { cat "$1/log" >&2; fail "Blender does not render"; }
 [ -s "$1/root/tmp/packages/blender_0001.png" ] || fail "Blender rendered nothing"
-here "$1" dpkg --purge burin libburin0 libburin-dev python3-burin blender-burin >"$1/log" 2>&1 || { cat "$1/log" >&2; fail "they cannot be removed"; }
+here "$1" dpkg --purge burin burin-doc libburin0 libburin-dev python3-burin blender-burin >"$1/log" 2>&1 || { cat "$1/log" >&2; fail "they cannot be removed"; }
 left=$(find "$1/layer/upper/usr" -path '*burin*' -not -type c)
 [ -z "$left" ] || fail "what is left behind: $left"
 END

@@ -13,7 +13,7 @@ export PATH=$folder/prefix/bin:$PATH
 share=$folder/prefix/share
 mkdir "$folder/files"
 cd "$folder/files"
-touch model.obj MODEL2.PLY notes.txt saved.lines mine.toml 'a b.obj'
+touch model.obj MODEL2.PLY notes.txt saved.lines mine.toml 'a b.obj' x.exr
 mkdir models
 
 # bash: "LINE" as it is typed, and what is offered, in any order.
@@ -34,6 +34,12 @@ expect_bash 'burin render a' 'a b.obj'
 expect_bash 'burin restyle ' 'models saved.lines'
 expect_bash 'burin render --style mi' 'mine.toml'
 expect_bash 'burin compare -o ' 'models'
+expect_bash 'burin render -o ' 'models x.exr'
+expect_bash 'burin render --deep ' 'models x.exr'
+expect_bash 'burin render --style pencil --set style.rou' 'style.roughness='
+expect_bash 'burin render --style=pencil --set=style.rou' 'style.roughness='
+expect_bash 'burin render --style pencil --set style.roughness=' ''
+expect_bash 'burin render --style pencil --set style.roughness=3' ''
 expect_bash 'burin nothing ' ''
 
 if command -v zsh >/dev/null; then
@@ -47,8 +53,22 @@ if command -v zsh >/dev/null; then
     expect_zsh 'burin render --hidden=da' 'burin render --hidden=dashed '
     expect_zsh 'burin render --lines crease,si' 'burin render --lines crease,silhouette '
     expect_zsh 'burin render model.' 'burin render model.obj '
+    expect_zsh 'burin render --style pencil --set style.rou' 'burin render --style pencil --set style.roughness='
     expect_zsh 'burin restyle ../files/sa' 'burin restyle ../files/saved.lines '
 fi
+
+# Pages that messages and manual pages name, and what these link to. The site alone has an index of decisions, and a
+# reference that is made of comments.
+pages=$share/doc/burin
+{ cat "$(command -v burin)"; cat "$share"/man/man1/*.1 | tr -d '\\'; } | grep -ao 'docs/[a-z/-]*\.md' | sort -u >"$folder/named"
+[ "$(wc -l <"$folder/named")" -ge 4 ] || fail "messages name no pages: $(cat "$folder/named")"
+while read -r page; do [ -f "$pages/$page" ] || fail "$page is not installed"; done <"$folder/named"
+find "$pages" -name '*.md' -exec dirname {} + | sort -u >"$folder/folders"
+while read -r of_pages; do
+    cat "$of_pages"/*.md | grep -v '^    ' | grep -oP '\]\(\K[^)#\s]+' | grep -v '^[a-z]*:' | sort -u |
+        grep -v '^api\.md$\|^decisions/index\.md$\|^index\.md$' >"$folder/links" || true
+    while read -r link; do [ -e "$of_pages/$link" ] || fail "$of_pages links to $link"; done <"$folder/links"
+done <"$folder/folders"
 
 # Manual pages: one for each command, without a complaint of the formatter.
 commands=$(burin --complete '' | cut -f1)

@@ -110,6 +110,8 @@ TEST(SceneErrors, ValuesOutOfRange) {
         {"[lines]\ndash=[4,0]", "4:6", "greater than 0"},
         {"[lines]\ndash=4", "4:6", "must be a list of 2 numbers"},
         {"[lines]\ndash='dotted'", "4:6", "must be a list of 2 numbers"},
+        {"[lines]\ndraw=['all','none']", "4:6", "none cannot stand beside other words"},
+        {"[lines]\ndraw='none,crease'", "4:6", "none cannot stand beside other words"},
         {"[lines]\ndraw=['crease','edge']", "4:6", "unknown line class 'edge'; known are"},
         {"[lines]\ncolor=[0,-1,0]", "4:7", "must not be negative"},
         {"[reference]\nsamples=3", "4:9", "at least 4"},

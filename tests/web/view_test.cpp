@@ -355,5 +355,38 @@ TEST(View, TheBrowserIsOpenedWhereThereIsADesktop) {
     EXPECT_EQ(read_file(folder.file("opened")), read_file(folder.file("out")));
 }
 
+TEST(View, ABrowserThatCannotBeOpenedIsSaid) {
+    const TemporaryFolder folder;
+    folder.write("scene.toml", kScene);
+    const char* const old_path = std::getenv("PATH");
+    const std::string path = old_path != nullptr ? old_path : "";
+    ::setenv("PATH", folder.path().c_str(), 1);  // without xdg-open
+    ::setenv("DISPLAY", ":99", 1);
+    for (const bool quiet : {false, true}) {
+        std::vector<std::string> arguments = {"view", "scene.toml"};
+        if (quiet) arguments.emplace_back("-q");
+        ProgramOptions options;
+        options.stdout_file = folder.write("out", "");
+        Program program(folder.path(), arguments, options);
+        std::string address;
+        for (int i = 0; i < 1000 && !address.ends_with('\n'); ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            address = read_file(folder.file("out"));
+        }
+        const std::string begin = "http://127.0.0.1:";
+        ASSERT_TRUE(address.starts_with(begin)) << address;
+        Connection connection(static_cast<std::uint16_t>(std::stoi(address.substr(begin.size()))));
+        connection.send("GET / HTTP/1.1\r\n\r\n");
+        EXPECT_NE(connection.read_all(), "");  // it answers, so it has tried to open a browser
+        program.send(SIGINT);
+        const ProgramResult ended = program.wait();
+        EXPECT_EQ(ended.status, 0);
+        EXPECT_EQ(ended.err.find("burin: note: xdg-open (package xdg-utils) is not there") != std::string::npos, !quiet)
+            << ended.err;
+    }
+    ::unsetenv("DISPLAY");
+    ::setenv("PATH", path.c_str(), 1);
+}
+
 }  // namespace
 }  // namespace burin::test::view_test
