@@ -123,7 +123,7 @@ void run_compare(const Arguments& a) {
     Scene& scene = still.scene;
     if (scene.sheet) throw UsageError("--style: burin compare draws no style sheets; remove the style sheet");
     draw_what_all_can(scene, a.quiet);
-    View view;
+    ComparedView view;
     {
         const Camera& camera = still.camera;
         note_missing_blur(scene, camera, a, "burin compare");

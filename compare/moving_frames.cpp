@@ -23,9 +23,9 @@ double middle_distance(const Scene& scene, const Camera& camera) {
 
 }  // namespace
 
-View moved_view(const Scene& scene, const View& view, int j) {
+ComparedView moved_view(const Scene& scene, const ComparedView& view, int j) {
     if (j == 0) return view;
-    View moved = view;
+    ComparedView moved = view;
     const Projection projection = view.camera.projection(view.width, view.height, 0);
     const double pixel = projection.pixel_size(middle_distance(scene, view.camera));
     const glm::dvec2 shift = kStep_px * (pixel * j);

@@ -8,7 +8,7 @@ namespace burin {
 
 /// The view of frame j: the camera moved by j / 32 of a pixel along (1, .618), pixels as they are
 /// in the middle of the scene.
-View moved_view(const Scene& scene, const View& view, int j);
+ComparedView moved_view(const Scene& scene, const ComparedView& view, int j);
 
 /// The part of the picture, at most width x height pixels, with the most line coverage.
 PixelRect busiest_part(const Plane& coverage, PixelRect crop, int width, int height);

@@ -21,7 +21,8 @@ Plane plane_of(const Image& image, const char* name) {
 
 }  // namespace
 
-LineRendering render_lines(const Method& method, const Scene& scene, const View& view, const RunOptions& options) {
+LineRendering render_lines(const Method& method, const Scene& scene, const ComparedView& view,
+                           const RunOptions& options) {
     const Frame frame = make_frame(scene, view.camera, view.width, view.height, view.crop);
     LayerSet layers{true, true, false, false, false, false, false};
     Film film({0, 0, view.width, view.height}, view.crop, layers, scene.lines.classes);

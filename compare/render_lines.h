@@ -21,7 +21,7 @@ struct LineRendering {
 };
 
 /// How a frame is seen: what all methods have in common.
-struct View {
+struct ComparedView {
     Camera camera;
     int width = 0;
     int height = 0;
@@ -29,7 +29,8 @@ struct View {
 };
 
 /// Lets the method draw the scene as it is set up.
-LineRendering render_lines(const Method& method, const Scene& scene, const View& view, const RunOptions& options);
+LineRendering render_lines(const Method& method, const Scene& scene, const ComparedView& view,
+                           const RunOptions& options);
 
 /// Black ink of this coverage on white paper, sRGB-encoded: what SSIM and FLIP look at.
 Plane ink_on_paper(const Plane& coverage);

@@ -30,7 +30,7 @@ constexpr double kOwnWidthStep_px = 0.05;
 
 class ComparisonRunner {
   public:
-    ComparisonRunner(Scene& scene, const View& view, const ComparisonOptions& options)
+    ComparisonRunner(Scene& scene, const ComparedView& view, const ComparisonOptions& options)
         : scene_(scene),
           view_(view),
           options_(options),
@@ -125,7 +125,8 @@ class ComparisonRunner {
     }
 
     /// Draws the scene's lines of some classes in some width.
-    LineRendering draw(const Method& method, LineClassSet classes, double width_px, WireWidth wire, const View& view) {
+    LineRendering draw(const Method& method, LineClassSet classes, double width_px, WireWidth wire,
+                       const ComparedView& view) {
         const LineSettings lines = scene_.lines;
         const WireWidth wire_width = scene_.wire.width;
         scene_.lines.classes = classes;
@@ -140,10 +141,10 @@ class ComparisonRunner {
         chart_->scene.wire.width = wire;
         chart_->scene.lines.classes = chart_classes(method.draws);
         chart_->scene.lines.style.width_px = width_px;
-        const View view{chart_->camera, chart_->width, chart_->height, {0, 0, chart_->width, chart_->height}};
+        const ComparedView view{chart_->camera, chart_->width, chart_->height, {0, 0, chart_->width, chart_->height}};
         return render(method, chart_->scene, view).coverage;
     }
-    LineRendering render(const Method& method, Scene& scene, const View& view) {
+    LineRendering render(const Method& method, Scene& scene, const ComparedView& view) {
         const bool has_paths = &method == &svg_method();
         if (has_paths) draw_as_paths(scene);
         LineRendering rendering = render_lines(method, scene, view, run_);
@@ -251,8 +252,8 @@ class ComparisonRunner {
         measure_picture(coverage, equal_truth, c_.threads, equal.values);
     }
 
-    View frame_view(int j) const {
-        View view = moved_view(scene_, view_, j);
+    ComparedView frame_view(int j) const {
+        ComparedView view = moved_view(scene_, view_, j);
         view.crop = c_.frames_crop;
         return view;
     }
@@ -306,7 +307,7 @@ class ComparisonRunner {
     }
 
     Scene& scene_;
-    View view_;
+    ComparedView view_;
     const ComparisonOptions& options_;
     RunOptions run_;
     TruthCache truths_;
@@ -317,8 +318,8 @@ class ComparisonRunner {
 
 }  // namespace
 
-Comparison run_comparison(Scene& scene, const std::string& input, const View& view, const ComparisonOptions& options,
-                          const std::function<void(const Comparison&)>& done) {
+Comparison run_comparison(Scene& scene, const std::string& input, const ComparedView& view,
+                          const ComparisonOptions& options, const std::function<void(const Comparison&)>& done) {
     return ComparisonRunner(scene, view, options).run(input, done);
 }
 

@@ -22,7 +22,7 @@ struct ComparisonOptions {
 /// far, so that an interrupt loses only the method that was running.
 ///
 /// The scene is changed on the way and is as it was at the end.
-Comparison run_comparison(Scene& scene, const std::string& input, const View& view, const ComparisonOptions& options,
-                          const std::function<void(const Comparison&)>& done);
+Comparison run_comparison(Scene& scene, const std::string& input, const ComparedView& view,
+                          const ComparisonOptions& options, const std::function<void(const Comparison&)>& done);
 
 }  // namespace burin

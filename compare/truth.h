@@ -20,13 +20,13 @@ class TruthCache {
 
     /// The coverage of the true lines of these classes. `frame` stands for the view; 0 is the
     /// picture itself.
-    const Plane& coverage(LineClassSet classes, double width_px, const View& view, int frame);
+    const Plane& coverage(LineClassSet classes, double width_px, const ComparedView& view, int frame);
 
     /// The scene's own truth, with its colours and its time.
-    LineRendering render(LineClassSet classes, double width_px, const View& view);
+    LineRendering render(LineClassSet classes, double width_px, const ComparedView& view);
 
   private:
-    LineRendering draw(LineClassSet classes, double width_px, const View& view);
+    LineRendering draw(LineClassSet classes, double width_px, const ComparedView& view);
 
     using Key = std::tuple<unsigned, double, int>;
     Scene& scene_;

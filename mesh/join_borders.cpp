@@ -26,7 +26,7 @@ struct Crack {
 /// Where a border has more others beside it, it is one of a pile.
 constexpr std::size_t kMostBeside = 64;
 /// What rounding may do.
-constexpr double kBarely = 1 + 1e-9;
+constexpr double kRoundedUp = 1 + 1e-9;
 
 bool is_before(const Crack& a, const Crack& b) {
     if (a.width != b.width) return a.width < b.width;
@@ -106,7 +106,7 @@ std::vector<Crack> find_cracks(const CrackSides& sides) {
             if (j == i) continue;
             const Segment& t = sides.segments()[j];
             const glm::dvec3 off = 0.5 * (t.a + t.b) - middle;
-            if (glm::dot(off, off) > kBarely * widest * widest) continue;  // most lie in boxes that merely overlap
+            if (glm::dot(off, off) > kRoundedUp * widest * widest) continue;  // most lie in boxes that merely overlap
             const double opposite = std::max(glm::distance(s.a, t.b), glm::distance(s.b, t.a));
             const double along = std::max(glm::distance(s.a, t.a), glm::distance(s.b, t.b));
             Crack crack;

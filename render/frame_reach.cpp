@@ -19,7 +19,7 @@ constexpr double kError = 0x1p-21, kErrorWithResiduals = 0x1p-44, kErrorOfPlaces
 constexpr double kUneven = 64;
 /// The near plane, as a part of how far the scene reaches: usually, and where a surface comes as
 /// near to the eye as that.
-constexpr double kNear = 0x1p-20, kNearest = 0x1p-40;
+constexpr double kUsualNear = 0x1p-20, kNearest = 0x1p-40;
 /// Single precision tells places apart in depth that are 1/64 pixel's width apart if the scene is
 /// no deeper than this.
 constexpr double kDeepestPx = 0x1p18;
@@ -127,7 +127,7 @@ double nearest_surface(const SurfaceSet& surfaces, std::span<const Box> view_box
 double near_distance(const SurfaceSet& surfaces, std::span<const Box> view_boxes, double farthest,
                      glm::dvec2 picture_px) {
     const Projection& p = surfaces.projection;
-    const double usual = kNear * farthest;
+    const double usual = kUsualNear * farthest;
     const glm::dvec2 corner_px = glm::max(p.center_px, picture_px - p.center_px);
     const double to_corner = glm::length(glm::dvec3(corner_px / p.focal_xy_px(), 1));  // of the picture, at depth 1
     const double nearest = nearest_surface(surfaces, view_boxes, usual * to_corner);

@@ -26,7 +26,7 @@ struct NamedUnit {
     std::string_view name;
     double mm;
 };
-constexpr NamedUnit kUnits[] = {{"mm", 1}, {"cm", 10}, {"m", 1000}, {"in", 25.4}, {"ft", 304.8}};
+constexpr NamedUnit kPaperUnits[] = {{"mm", 1}, {"cm", 10}, {"m", 1000}, {"in", 25.4}, {"ft", 304.8}};
 
 bool is_same_word(std::string_view a, std::string_view b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -93,7 +93,7 @@ double round_scale_down(double scale) {
 }
 
 std::optional<double> unit_named(std::string_view name) {
-    for (const NamedUnit& unit : kUnits) {
+    for (const NamedUnit& unit : kPaperUnits) {
         if (unit.name == name) return unit.mm;
     }
     return std::nullopt;

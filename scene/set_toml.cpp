@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kLaterClasses[] = {"suggestive", "ridge", "valley", "light", "shadow"};
 
-LineClassSet read_classes(TomlReader& t) {
+LineClassSet read_set_classes(TomlReader& t) {
     if (t.node("classes") == nullptr) t.fail("needs classes = [\"silhouette\", ...]: only these are looked for");
     const std::vector<std::string> names = *t.texts("classes");
     if (names.empty()) t.fail("classes", "must name at least one line class");
@@ -80,7 +80,7 @@ class SetReader {
         if (!name || name->empty()) t.fail("needs a name");
         if (!names_.insert(*name).second) t.fail("name", "two sets have this name; rename one");
         set.name = *name;
-        set.classes = read_classes(t);
+        set.classes = read_set_classes(t);
         set.qi = read_qi(t);
         if (t.node("select") != nullptr) set.select = values_.expression(t, "select");
         set.objects = read_globs(t, "objects").value_or(std::vector<std::string>{});

@@ -26,7 +26,7 @@ std::vector<std::string> names_in(const toml::table& root, std::string_view tabl
     return names;
 }
 
-std::string listed(const std::vector<std::string>& names) {
+std::string listed_keys(const std::vector<std::string>& names) {
     std::string list;
     for (const std::string& name : names) list += (list.empty() ? "" : ", ") + printable(name);
     return list.empty() ? "none" : list;
@@ -57,7 +57,7 @@ std::string path_of(const toml::table& root, const Override& o, std::string_view
         if (std::find(std::begin(kTopKeys), std::end(kTopKeys), first) != std::end(kTopKeys)) return std::string(first);
         const std::vector<std::string> parameters = names_in(root, "parameters");
         fail(o, "the sheet has no parameter '" + printable(first) + "'" + suggestion_of(first, parameters) +
-                    "; it has " + listed(parameters));
+                    "; it has " + listed_keys(parameters));
     }
     const toml::table* const styles = root["style"].as_table();
     if (styles != nullptr && styles->contains(first)) return "style." + std::string(key);
@@ -69,7 +69,7 @@ std::string path_of(const toml::table& root, const Override& o, std::string_view
     if (std::find(std::begin(kTopKeys), std::end(kTopKeys), first) != std::end(kTopKeys)) return std::string(key);
     const std::vector<std::string> names = names_in(root, "style");
     fail(o, "the sheet has no style '" + printable(first) + "'" + suggestion_of(first, names) + "; it has " +
-                listed(names));
+                listed_keys(names));
 }
 
 enum class ParameterKind { none, number, color };

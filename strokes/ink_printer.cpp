@@ -14,12 +14,12 @@
 namespace burin {
 namespace {
 
-constexpr int kTilePx = 32;
+constexpr int kInkTilePx = 32;
 
 /// Whole tiles around a crop. They are those of the whole picture, so that each has the same strokes in any crop.
 PixelRect whole_tiles(PixelRect crop) {
-    const auto down = [](int px) { return px & -kTilePx; };
-    return {down(crop.x0), down(crop.y0), down(crop.x1 + kTilePx - 1), down(crop.y1 + kTilePx - 1)};
+    const auto down = [](int px) { return px & -kInkTilePx; };
+    return {down(crop.x0), down(crop.y0), down(crop.x1 + kInkTilePx - 1), down(crop.y1 + kInkTilePx - 1)};
 }
 
 /// The segments of strokes that reach each tile, and the boundaries that may cut them.
@@ -29,7 +29,7 @@ struct Bins {
     TileLists<std::uint32_t> boundaries;
 
     Bins(const InkedLines& lines, const InkPlan& plan, bool has_sides, PixelRect crop)
-        : tiles(whole_tiles(crop), kTilePx) {
+        : tiles(whole_tiles(crop), kInkTilePx) {
         const double filter_px = reach_px(lines.filter);
         std::vector<std::vector<TileLists<InkSegmentRef>::Record>> segment_records(1);
         for (std::size_t i = 0; i < lines.strokes.size(); ++i) {

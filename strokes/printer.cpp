@@ -47,7 +47,7 @@ namespace {
 using Coverages = std::array<float, kLineClassCount>;
 
 /// Brings coverages within 0..1, so that their sum stays, where that is possible.
-void clamp(Coverages& coverages) {
+void clamp_coverages(Coverages& coverages) {
     float sum = 0, positive = 0;
     for (float& c : coverages) {
         sum += c;
@@ -136,7 +136,7 @@ class StrokePrinter::Printer {
         });
         for (std::size_t i = 0; i < filtered_.size(); ++i) {
             if (filtered_[i] == Coverages{}) continue;
-            clamp(filtered_[i]);
+            clamp_coverages(filtered_[i]);
             const int x = static_cast<int>(i) % rect.width(), y = static_cast<int>(i) / rect.width();
             LinePixel pixel;
             pixel.coverage = filtered_[i];

@@ -21,7 +21,7 @@ constexpr std::size_t kMostTriangles = std::size_t{1} << 23, kMostPairs = std::s
 constexpr std::uint64_t kMostTestsPerTriangle = 64, kLeastTests = 1 << 20;
 constexpr double kLargestExtent = 1e30;  // boxes have single precision
 // How far a coordinate may be off, as a part of the scene's extent.
-constexpr double kRounding = 0x1p-50;
+constexpr double kPairRounding = 0x1p-50;
 
 /// How far the corners of a triangle are on one side or the other of another one's plane, multiplied by the length
 /// of the plane's normal.
@@ -148,14 +148,14 @@ ScreenBox IntersectionTest::box_of(const Triangle& t) {
 }
 
 IntersectionTest::Meeting IntersectionTest::meeting(const Triangle& p, const Triangle& q) const {
-    const Sides of_q(p, q, kRounding * extent_);
+    const Sides of_q(p, q, kPairRounding * extent_);
     if (!of_q.is_cut() && !of_q.has_edge_in_plane()) return Meeting::none;
-    const Sides of_p(q, p, kRounding * extent_);
+    const Sides of_p(q, p, kPairRounding * extent_);
     if (!of_p.is_cut() && !of_p.has_edge_in_plane()) return Meeting::none;
     // Each passes through the other's plane along one line (Moller 1997); do they meet there?
     const glm::dvec3 along = glm::cross(of_q.normal, of_p.normal);
     const Range one = passage(q, of_q, along), other = passage(p, of_p, along);
-    const double slack = kRounding * extent_ * Sides::length_of(along);
+    const double slack = kPairRounding * extent_ * Sides::length_of(along);
     const bool meet = one.low <= other.high + slack && other.low <= one.high + slack && overlap(box_of(p), box_of(q));
     if (!meet) return Meeting::none;
     return of_q.is_cut() && of_p.is_cut() ? Meeting::through : Meeting::along_edge;
@@ -165,14 +165,14 @@ IntersectionTest::Meeting IntersectionTest::meeting(const Triangle& p, const Tri
 /// side.
 bool IntersectionTest::goes_on_beyond(SurfaceId s, SurfaceId plane) const {
     const Triangle own = triangle(s), other = triangle(plane);
-    const Sides sides(other, own, kRounding * extent_);
+    const Sides sides(other, own, kPairRounding * extent_);
     if (sides.is_cut()) return true;
     const auto third = static_cast<HalfEdge>(std::min_element(sides.of_corner.begin(), sides.of_corner.end()) -
                                              sides.of_corner.begin());
     const Mesh& mesh = *places_[s.instance].mesh;
     const HalfEdge edge = 3 * s.triangle + (third + 1) % 3, partner = mesh.next_on_edge[edge];
     if (partner == edge || mesh.next_on_edge[partner] != edge) return false;
-    const Sides beyond(other, triangle({s.instance, partner / 3}), kRounding * extent_);
+    const Sides beyond(other, triangle({s.instance, partner / 3}), kPairRounding * extent_);
     return beyond.highest() > beyond.slack;
 }
 

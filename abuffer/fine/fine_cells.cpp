@@ -21,7 +21,7 @@ constexpr std::size_t kMostPlaces = 4;
 struct Rounding {
     int margin, far_margin, near;
 };
-constexpr Rounding kRounding{1, 16, 1 << 20};
+constexpr Rounding kCellRounding{1, 16, 1 << 20};
 
 }  // namespace
 
@@ -77,7 +77,7 @@ void FineCells::for_cells_of(const CrossedTriangle& t, const Box& box, const Vis
         return for_cells(box, visit);
     const std::array<PolygonRows::Corner, 3> corners{{{t.x[0], t.y[0]}, {t.x[1], t.y[1]}, {t.x[2], t.y[2]}}};
     const PolygonRows rows(corners);
-    const auto [margin, far_margin, near] = kRounding;
+    const auto [margin, far_margin, near] = kCellRounding;
     const glm::ivec2 farthest = glm::max(glm::abs(box.low), glm::abs(box.high));
     const int around = std::max(farthest.x, farthest.y) < near ? margin : far_margin;
     for (int y = cells.y0; y <= cells.y1; ++y) {
@@ -105,8 +105,8 @@ std::size_t FineCells::find_hiding(const FrontBoxes& boxes, std::size_t begin, s
 ScreenBox FineCells::box_around(glm::dvec2 a, glm::dvec2 b, float low) {
     const glm::vec2 begin(glm::min(a, b)), end(glm::max(a, b));
     const float farthest = std::max({std::abs(begin.x), std::abs(begin.y), std::abs(end.x), std::abs(end.y)});
-    const auto margin =
-        static_cast<float>(farthest < static_cast<float>(kRounding.near) ? kRounding.margin : kRounding.far_margin);
+    const auto margin = static_cast<float>(
+        farthest < static_cast<float>(kCellRounding.near) ? kCellRounding.margin : kCellRounding.far_margin);
     return {begin.x - margin,
             begin.y - margin,
             end.x + margin,

@@ -8,7 +8,7 @@ namespace burin {
 namespace {
 
 /// Shorter parts of lines belong to the part before. Pixels.
-constexpr double kShortestPiecePx = 1.0 / 32;
+constexpr double kShortestSweptPx = 1.0 / 32;
 /// Kernels read this many values behind the last one.
 constexpr std::size_t kReadMore = 3;
 
@@ -83,7 +83,7 @@ void HidingSweep::find_parts(const WholeLine& line, std::uint32_t line_number, s
     find_events();
     int opaque = opaque_;
     const double begin = begin_, end = end_;
-    const double shortest = std::min(kShortestPiecePx / line.length_px(), 0.5 * (end - begin));
+    const double shortest = std::min(kShortestSweptPx / line.length_px(), 0.5 * (end - begin));
     double start = begin;
     const std::size_t first_piece = pieces.size();
     const auto emit = [&](double to) {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lines/seam_sight.h"
+
 namespace burin {
 namespace {
-
-constexpr double kWidestCrackPx = 1;
 
 bool is_sharp(const ScreenMesh& mesh, HalfEdge h) {
     return mesh.sharp == nullptr || (mesh.sharp[h / 3] >> h % 3 & 1) != 0;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kChunkPolygons = 8192;
 
-struct Chunk {
+struct PolygonChunk {
     std::uint32_t instance, first, end;
 };
 
@@ -44,7 +44,7 @@ PolygonBins::PolygonBins(const Frame& frame, const FeatureEdges& features, const
       tile_px_(tile_px),
       columns_((frame.crop.width() + tile_px - 1) / tile_px),
       rows_((frame.crop.height() + tile_px - 1) / tile_px) {
-    std::vector<Chunk> chunks;
+    std::vector<PolygonChunk> chunks;
     for (std::uint32_t i = 0; i < frame.surfaces.instances.size(); ++i) {
         const std::uint32_t count = frame.surfaces.instances[i].mesh->polygon_count;
         for (std::uint32_t first = 0; first < count; first += std::min(kChunkPolygons, count - first)) {

@@ -10,7 +10,7 @@ namespace {
 
 using S = SurfaceVariable;
 
-glm::dvec3 unit(const glm::dvec3& v) { return v / std::max(glm::length(v), 1e-300); }
+glm::dvec3 unit_or_zero(const glm::dvec3& v) { return v / std::max(glm::length(v), 1e-300); }
 
 /// By how much a level's direction differs from that of the first one: no two are across each other, for then lines
 /// would leave rows of dots.
@@ -41,9 +41,9 @@ FragmentShader::FragmentShader(const ShadedSurfaces& surfaces)
     for (const ExpressionOutput& output : look_.program.outputs()) results += output.components;
     values_.resize(results * kBlock);
     triangles_.reserve(kBlock);
-    const glm::dvec3 axis = unit(look_.hatch_axis);
+    const glm::dvec3 axis = unit_or_zero(look_.hatch_axis);
     const glm::dvec3 across =
-        unit(glm::cross(axis, std::abs(axis.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
+        unit_or_zero(glm::cross(axis, std::abs(axis.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
     const glm::dvec3 other = glm::cross(across, axis);
     for (int level = 0; level < look_.hatch_levels; ++level) {
         const double turn = glm::radians(kLevelTurnsDeg[level]);
@@ -51,11 +51,11 @@ FragmentShader::FragmentShader(const ShadedSurfaces& surfaces)
         const bool is_uv = look_.hatch_space == HatchSpace::uv;
         hatch_directions_.emplace_back(is_uv ? -std::sin(angle) : std::sin(angle),
                                        std::cos(angle));  // across the lines; y runs down, v up
-        hatch_axes_.push_back(level % 2 == 0 ? unit(axis * std::cos(turn) + across * std::sin(turn))
-                                             : unit(axis * std::cos(turn) + other * std::sin(turn)));
+        hatch_axes_.push_back(level % 2 == 0 ? unit_or_zero(axis * std::cos(turn) + across * std::sin(turn))
+                                             : unit_or_zero(axis * std::cos(turn) + other * std::sin(turn)));
         const glm::dvec3 aside(0.36, 0.48, 0.8);
         const bool is_aside = std::abs(glm::dot(hatch_axes_.back(), aside)) < 0.95;
-        other_axes_.push_back(unit(glm::cross(hatch_axes_.back(), is_aside ? aside : glm::dvec3(1, 0, 0))));
+        other_axes_.push_back(unit_or_zero(glm::cross(hatch_axes_.back(), is_aside ? aside : glm::dvec3(1, 0, 0))));
     }
 }
 
@@ -320,7 +320,7 @@ double FragmentShader::free_of_level(std::size_t i, std::size_t level, double wi
     if (look_.hatch_space == HatchSpace::uv) return 1 - covered_on_texture(i, hatch_directions_[level], width, pixel);
     // Where the planes of the level hardly cut the surface, others take over.
     const glm::dvec3& axis = hatch_axes_[level];
-    const double cosine = std::min(std::abs(glm::dot(unit(axis_in_view(i, axis)), place(i).normal)), 1.0);
+    const double cosine = std::min(std::abs(glm::dot(unit_or_zero(axis_in_view(i, axis)), place(i).normal)), 1.0);
     const double sine = std::sqrt(1 - cosine * cosine);
     const double u = std::clamp((sine - kLevelPlanes[0]) / (kLevelPlanes[1] - kLevelPlanes[0]), 0.0, 1.0);
     const double own = width * u * u * (3 - 2 * u);

@@ -18,7 +18,7 @@ constexpr std::size_t kMostEntries = 6, kMostEntriesOfAll = 24;
 constexpr std::uint32_t kMostSide = 1024;
 
 /// The range of x that a convex outline has in a row; nothing where it is not there.
-struct Range {
+struct RowRange {
     double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
     void add(double x) {
         low = std::min(low, x);
@@ -26,8 +26,8 @@ struct Range {
     }
 };
 
-Range range_in_row(std::span<const glm::dvec2> outline, double top, double bottom) {
-    Range range;
+RowRange range_in_row(std::span<const glm::dvec2> outline, double top, double bottom) {
+    RowRange range;
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const glm::dvec2 &a = outline[i], &b = outline[i + 1 < outline.size() ? i + 1 : 0];
         if (a.y >= top && a.y <= bottom) range.add(a.x);
@@ -189,7 +189,8 @@ void ShadowCasters::add_grid(std::uint32_t number, const View& view, glm::dvec2 
         const std::uint32_t first = cell_of(top - slack), last = cell_of(bottom + slack);
         for (std::uint32_t y = first; y <= last; ++y) {
             // Of a small triangle all cells around it count.
-            const Range range = last - first < 2 ? Range{left, right} : range_in_row(corners, y - slack, y + 1 + slack);
+            const RowRange range =
+                last - first < 2 ? RowRange{left, right} : range_in_row(corners, y - slack, y + 1 + slack);
             if (!(range.low <= side + slack && range.high >= -slack)) continue;
             for (std::uint32_t x = cell_of(range.low - slack); x <= cell_of(range.high + slack); ++x)
                 visit(y * side + x);

@@ -15,7 +15,7 @@
 namespace burin {
 namespace {
 
-constexpr float kMostColor = 65504;  // the largest half
+constexpr float kMostSurfaceColor = 65504;  // the largest half
 constexpr std::array<std::string_view, kSurfaceVariableCount - 1> kNames = {
     "x",     "y",   "depth", "distance", "px_size",  "P",  "PO", "N", "facing",
     "light", "lit", "C",     "object",   "material", "kr", "u",  "v", "Cv"};
@@ -69,7 +69,7 @@ class SurfaceCompiler {
         }
     }
     void add_share(const StyleValue& value) { add(value, {false, 0, 1}); }
-    void add_color(const StyleValue& value) { add(value, {true, 0, kMostColor}); }
+    void add_color(const StyleValue& value) { add(value, {true, 0, kMostSurfaceColor}); }
 
     ExpressionProgram program(const SourcePosition& where) const {
         try {

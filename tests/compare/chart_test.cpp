@@ -120,7 +120,7 @@ TEST(ChartMetrics, AMethodDrawsTheLinesWhereTheyAre) {
     TestChart chart = make_test_chart(1);
     chart.scene.lines.classes = kCreasesAndSilhouettes;
     chart.scene.patel.mask_bits = 256;
-    const View view{chart.camera, chart.width, chart.height, {0, 0, chart.width, chart.height}};
+    const ComparedView view{chart.camera, chart.width, chart.height, {0, 0, chart.width, chart.height}};
     ComparisonRow row;
     measure_chart(chart, render_lines(*find_method("patel"), chart.scene, view, {2, nullptr}).coverage,
                   LineClassSet::all(), 1, row);
@@ -135,7 +135,7 @@ TEST(ChartMetrics, AMethodDrawsTheLinesWhereTheyAre) {
 TEST(ChartMetrics, HiddenLinesLeakThroughSteepCovers) {
     TestChart chart = make_test_chart(1);
     chart.scene.lines.classes = kCreasesAndSilhouettes;
-    const View view{chart.camera, chart.width, chart.height, {0, 0, chart.width, chart.height}};
+    const ComparedView view{chart.camera, chart.width, chart.height, {0, 0, chart.width, chart.height}};
     for (const char* name : {"offset", "slope-offset", "id-buffer"}) {
         ComparisonRow row;
         measure_chart(chart, render_lines(*find_method(name), chart.scene, view, {2, nullptr}).coverage,

@@ -10,16 +10,16 @@ namespace burin {
 namespace {
 
 /// Where a world position is seen.
-glm::dvec2 seen_at(const View& view, const glm::dvec3& p) {
+glm::dvec2 seen_at(const ComparedView& view, const glm::dvec3& p) {
     const glm::dvec3 in_view(view.camera.to_view() * glm::dvec4(p, 1.0));
     return view.camera.projection(view.width, view.height, 0).to_pixel(in_view);
 }
 
 TEST(MovedView, MovesTheSceneByPartsOfAPixel) {
     const Scene scene = test::scene_of({make_box({2, 2, 2})});
-    const View orthographic{test::pixel_camera(64, 48), 64, 48, {0, 0, 64, 48}};
-    const View perspective{test::perspective_camera({0, 0, 9}, {0, 0, 0}), 64, 48, {0, 0, 64, 48}};
-    for (const View& view : {orthographic, perspective}) {
+    const ComparedView orthographic{test::pixel_camera(64, 48), 64, 48, {0, 0, 64, 48}};
+    const ComparedView perspective{test::perspective_camera({0, 0, 9}, {0, 0, 0}), 64, 48, {0, 0, 64, 48}};
+    for (const ComparedView& view : {orthographic, perspective}) {
         EXPECT_EQ(seen_at(moved_view(scene, view, 0), {0, 0, 0}), seen_at(view, {0, 0, 0}));
         const glm::dvec2 moved = seen_at(moved_view(scene, view, 8), {0, 0, 0}) - seen_at(view, {0, 0, 0});
         EXPECT_NEAR(moved.x, -0.25, 1e-9);  // the camera moves to the right and up

@@ -16,7 +16,7 @@
 #include "tests/support/random.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin {
+namespace burin::obj_pieces_test {
 namespace {
 
 using test::Random;
@@ -287,4 +287,4 @@ TEST_F(ObjPieces, LargeFilesAreReadTheSameOnAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::obj_pieces_test

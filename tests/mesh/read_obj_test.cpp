@@ -9,7 +9,7 @@
 #include "tests/support/random.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin {
+namespace burin::read_obj_test {
 namespace {
 
 using test::Polygons;
@@ -277,4 +277,4 @@ TEST_F(ReadObj, MessagesShowControlCharactersAsQuestionMarks) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::read_obj_test

@@ -6,7 +6,7 @@
 #include "tests/mesh/model_files.h"
 #include "tests/support/temporary_folder.h"
 
-namespace burin {
+namespace burin::read_off_test {
 namespace {
 
 using test::Polygons;
@@ -113,4 +113,4 @@ TEST_F(ReadOff, VertexNumbersMustExist) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::read_off_test
