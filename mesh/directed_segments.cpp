@@ -15,7 +15,8 @@ class DirectionCube {
         // In a class there are so many segments that looking for it is worth it.
         constexpr double kPerSquare = 6;
         constexpr int kMost = 8;
-        along_side_ = std::clamp(static_cast<int>(std::cbrt(static_cast<double>(segment_count)) / kPerSquare), 1, kMost);
+        along_side_ =
+            std::clamp(static_cast<int>(std::cbrt(static_cast<double>(segment_count)) / kPerSquare), 1, kMost);
     }
 
     std::size_t count() const { return 3 * squares(); }
@@ -29,13 +30,16 @@ class DirectionCube {
     }
 
   private:
-    std::size_t squares() const { return static_cast<std::size_t>(along_side_) * static_cast<std::size_t>(along_side_); }
+    std::size_t squares() const {
+        return static_cast<std::size_t>(along_side_) * static_cast<std::size_t>(along_side_);
+    }
     static int longest(const glm::dvec3& way) {
         const glm::dvec3 size = glm::abs(way);
         return size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
     }
     std::size_t place(double share) const {
-        return static_cast<std::size_t>(std::clamp(static_cast<int>(0.5 * (share + 1) * along_side_), 0, along_side_ - 1));
+        return static_cast<std::size_t>(
+            std::clamp(static_cast<int>(0.5 * (share + 1) * along_side_), 0, along_side_ - 1));
     }
 
     int along_side_;

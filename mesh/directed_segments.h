@@ -67,9 +67,7 @@ class DirectedSegments {
         double least_cosine = -1;  ///< of the angle between that and whatever runs along a segment of the class
         SegmentTree tree;          ///< of turned pieces
 
-        bool may_run_along(const glm::dvec3& direction) const {
-            return std::abs((turn * direction).x) >= least_cosine;
-        }
+        bool may_run_along(const glm::dvec3& direction) const { return std::abs((turn * direction).x) >= least_cosine; }
     };
 
     std::vector<Class> classes_;

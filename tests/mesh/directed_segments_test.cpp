@@ -29,13 +29,21 @@ std::vector<Ends> segments_in(Random& random, Heap heap, int count) {
         const glm::dvec3 place = random.in_box(1), way = random.real(0.01, 1) * random.direction();
         const double height = random.integer(0, 9) / 10.0;
         switch (heap) {
-            case Heap::any: segments.push_back({place, place + way}); break;
+            case Heap::any:
+                segments.push_back({place, place + way});
+                break;
             case Heap::sheets:
                 segments.push_back({{place.x, place.y, height}, {place.x + way.x, place.y + way.y, height}});
                 break;
-            case Heap::through_a_point: segments.push_back({-way, way}); break;
-            case Heap::alike: segments.push_back({place, place + glm::dvec3(0.5, 0.25, 0)}); break;
-            case Heap::far_away: segments.push_back({place + 1e6, place + way + 1e6}); break;
+            case Heap::through_a_point:
+                segments.push_back({-way, way});
+                break;
+            case Heap::alike:
+                segments.push_back({place, place + glm::dvec3(0.5, 0.25, 0)});
+                break;
+            case Heap::far_away:
+                segments.push_back({place + 1e6, place + way + 1e6});
+                break;
         }
     }
     segments.push_back({segments.front().a, segments.front().a});  // without a direction
@@ -76,7 +84,8 @@ TEST(DirectedSegments, NearestAlongADirectionAreThoseOfASearchThroughAll) {
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
         Random random(seed);
         // Up to three squares along a side of the cube of directions.
-        const std::vector<Ends> segments = segments_in(random, kHeaps[seed % std::size(kHeaps)], seed < 20 ? 300 : 8000);
+        const std::vector<Ends> segments =
+            segments_in(random, kHeaps[seed % std::size(kHeaps)], seed < 20 ? 300 : 8000);
         const DirectedSegments directed(segments);
         for (int k = 0; k < 60; ++k) {
             const Ends& own = any_of(random, segments);
