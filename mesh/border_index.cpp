@@ -23,8 +23,7 @@ constexpr double kWidestReachPart = 0.05;
 
 glm::dvec3 direction_of(const BorderIndex::Segment& s) { return s.b - s.a; }
 
-/// The least cosine of the angle between two edges that run along each other.
-constexpr double kCosParallel = 0.9;
+constexpr double kCosParallel = DirectedSegments::kCosParallel;
 
 bool are_nearly_parallel(const glm::dvec3& along, double length, const BorderIndex::Segment& other) {
     const glm::dvec3 way = direction_of(other);
@@ -49,6 +48,12 @@ struct TouchedBox {
 bool are_near(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d, double margin) {
     const glm::dvec3 u = b - a, v = d - c, w = a - c;
     const double uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v), area = uu * vv - uv * uv;
+    // Most pass each other: already the straight lines through them are too far apart, whatever rounding does.
+    constexpr double kMore = 1 + 1e-6, kByRounding = 1e-14;
+    const glm::dvec3 across = glm::cross(u, v);
+    if (std::abs(glm::dot(w, across)) >
+        kMore * margin * glm::length(across) + kByRounding * std::sqrt(uu * vv) * (glm::length(w) + margin))
+        return false;
     if (area > 0) {
         const double s = std::clamp((uv * glm::dot(v, w) - vv * glm::dot(u, w)) / area, 0.0, 1.0);
         if (distance_to_segment(a + s * u, c, d) <= margin) return true;
@@ -59,35 +64,6 @@ bool are_near(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, con
 
 SegmentPiece whole_of(const BorderIndex::Segment& s, std::uint32_t number) {
     return piece_around(glm::min(s.a, s.b), glm::max(s.a, s.b), number);
-}
-
-/// How far a segment's box reaches beside the segment: the middle one of its extents.
-double width_of_box(const BorderIndex::Segment& s) {
-    const glm::dvec3 size = glm::abs(direction_of(s));
-    return std::max(std::min(size.x, size.y), std::min(std::max(size.x, size.y), size.z));
-}
-
-/// All segments cut into pieces whose boxes are about equally wide.
-std::vector<SegmentPiece> pieces_of(std::span<const BorderIndex::Segment> segments) {
-    constexpr std::size_t kMostPerSegment = 16, kMostMore = std::size_t{1} << 20;
-    const std::size_t most_more = std::min((kMostPerSegment - 1) * segments.size(), kMostMore);
-    double sum = 0;
-    for (const BorderIndex::Segment& s : segments) sum += width_of_box(s);
-    const double pieces_per_unit = sum > 0 ? static_cast<double>(most_more) / sum : 0;
-    std::vector<SegmentPiece> pieces;
-    pieces.reserve(segments.size() + most_more);
-    for (std::uint32_t i = 0; i < segments.size(); ++i) {
-        const SegmentPiece whole = whole_of(segments[i], i);
-        const auto count = 1 + static_cast<int>(width_of_box(segments[i]) * pieces_per_unit);
-        const glm::dvec3 &a = segments[i].a, &b = segments[i].b;
-        for (int k = 0; k < count; ++k) {
-            const glm::dvec3 from = glm::mix(a, b, static_cast<double>(k) / count),
-                             to = glm::mix(a, b, static_cast<double>(k + 1) / count);
-            const SegmentPiece part = piece_around(glm::min(from, to), glm::max(from, to), i);
-            pieces.push_back({glm::max(part.low, whole.low), glm::min(part.high, whole.high), i});
-        }
-    }
-    return pieces;
 }
 
 /// A set of some numbers.
@@ -142,7 +118,10 @@ BorderIndex::BorderIndex(std::vector<Segment> segments) : segments_(std::move(se
     for (std::uint32_t i = 0; i < segments_.size(); ++i) all.push_back(whole_of(segments_[i], i));
     whole_ = SegmentTree(all);
     if (is_crowded()) {
-        pieces_ = SegmentTree(pieces_of(segments_), SegmentTree::Cut::across_thin_boxes);
+        std::vector<DirectedSegments::Ends> ends;
+        ends.reserve(segments_.size());
+        for (const Segment& s : segments_) ends.push_back({s.a, s.b});
+        directed_ = DirectedSegments(ends);
         std::vector<PointTree<6, float>::Point> boxes;
         boxes.reserve(all.size());
         for (const SegmentPiece& p : all)
@@ -172,14 +151,15 @@ double BorderIndex::reach_part_in_crowd() const {
             const Segment& own = segments_[by_place()[i * segments_.size() / kAsked]];
             const glm::dvec3 along = direction_of(own), middle = 0.5 * (own.a + own.b);
             const double length = glm::length(along), reach = part * length;
-            finest().visit_leaves(TouchedBox{middle - reach, middle + reach}, [&](std::uint32_t k) {
+            double left = reach;
+            visit_nearest(along / length, middle, left, [&](std::uint32_t k) {
                 const Segment& other = segments_[k];
-                if (!may_be_partners(own, along, length, other)) return true;
+                if (in_reach > kFew * kAsked || !may_be_partners(own, along, length, other)) return;
                 if (distance_to_segment(middle, other.a, other.b) > reach ||
                     std::find(seen.begin(), seen.end(), k) != seen.end())
-                    return true;
+                    return;
                 seen.push_back(k);
-                return ++in_reach <= kFew * kAsked;
+                if (++in_reach > kFew * kAsked) left = 0;
             });
         }
         if (in_reach <= kFew * kAsked) break;
@@ -233,15 +213,24 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
     return nearest.partner;
 }
 
+/// Calls visit(number) for all segments along a direction that may be as near to a point as `reach`, which visit() may
+/// lower meanwhile, and for others.
+template <typename Visit>
+void BorderIndex::visit_nearest(const glm::dvec3& direction, const glm::dvec3& at, const double& reach,
+                                const Visit& visit) const {
+    if (has_crowds()) return directed_.visit_nearest(direction, at, reach, visit);
+    whole_.visit_nearest(at, reach, visit);
+}
+
 /// The nearest one, if it is nearer than the one that is known, or that far and comes first.
 void BorderIndex::find_nearest(const Segment& own, const glm::dvec3& at, Nearest& nearest) const {
     const glm::dvec3 along = direction_of(own);
     const double length = glm::length(along);
-    finest().visit_nearest(at, nearest.reach,
-                           [&](std::uint32_t i) {  // a look at its box would take as long as its distance
-                               const Segment& other = segments_[i];
-                               if (may_be_partners(own, along, length, other)) nearest.offer(other, at);
-                           });
+    visit_nearest(along / length, at, nearest.reach,
+                  [&](std::uint32_t i) {  // a look at its box would take as long as its distance
+                      const Segment& other = segments_[i];
+                      if (may_be_partners(own, along, length, other)) nearest.offer(other, at);
+                  });
 }
 
 std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm::dvec3& at, const Sight& sight) const {
@@ -269,7 +258,7 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
     const double along_sight = (nearest.reach + radius) / sine;
     const glm::dvec3 from = at - along_sight * sight.direction, to = at + along_sight * sight.direction;
     double farthest = along_sight + radius;
-    finest().visit_nearest(at, farthest, NearSegment{from, to, radius}, [&](std::uint32_t i) {
+    const auto offer_if_seen = [&](std::uint32_t i) {
         const Segment& other = segments_[i];
         if (!may_be_partners(*own, along, length, other)) return;
         if (!(distance_to_segment(at, other.a, other.b) <= nearest.reach) ||
@@ -277,7 +266,12 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
             return;
         nearest.offer(other, at);
         farthest = (nearest.reach + radius) / sine + radius;
-    });
+    };
+    if (has_crowds()) {
+        directed_.visit_nearest(along / length, at, farthest, from, to, radius, offer_if_seen);
+    } else {
+        whole_.visit_nearest(at, farthest, NearSegment{from, to, radius}, offer_if_seen);
+    }
     // A segment that is seen elsewhere may be nearer.
     if (nearest.partner) find_nearest(*own, at, nearest);
     return nearest.partner;
@@ -295,7 +289,7 @@ BorderIndex::Neighbourhood BorderIndex::neighbourhood(HalfEdge half_edge, const 
     found.reach_ = reach_part_ * length;
     found.others_ = has_partners() ? found.reach_ + kFarther * length : std::numeric_limits<double>::infinity();
     if (!has_partners()) return found;
-    finest().visit_nearest(at, found.others_, [&](std::uint32_t i) {
+    visit_nearest(along / length, at, found.others_, [&](std::uint32_t i) {
         const Segment& other = segments_[i];
         if (!may_be_partners(*own, along, length, other)) return;
         const double distance = distance_to_segment(at, other.a, other.b);
@@ -364,16 +358,20 @@ bool BorderIndex::find_near(HalfEdge half_edge, std::size_t most, SeamCandidates
     candidates.reach_ = reach_part_ * length;
     const double margin = candidates.reach_ * (1 + 1e-3);  // a trifle more, for rounding
     const glm::dvec3 &a = own->a, &b = own->b;
-    const NearSegment may_be_near{a, b, margin};
     most = std::min(most, kMostNear);
     NumberSet seen;
-    finest().visit_leaves(may_be_near, [&](std::uint32_t i) {
+    const auto count = [&](std::uint32_t i) {
         const Segment& other = segments_[i];
         if (!are_near(a, b, other.a, other.b, margin) || !seen.add(i)) return true;
         if (seen.count() > most) return false;
         if (may_be_partners(*own, along, length, other)) candidates.segments_.push_back(other);
         return true;
-    });
+    };
+    if (has_crowds()) {
+        directed_.visit_near(a, b, margin, count);
+    } else {
+        whole_.visit_leaves(NearSegment{a, b, margin}, count);
+    }
     if (seen.count() > most) candidates.segments_.clear();
     return seen.count() <= most;
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/directed_segments.h"
 #include "mesh/point_tree.h"
 #include "mesh/segment_tree.h"
 
@@ -64,7 +65,7 @@ class BorderIndex {
     class Neighbourhood;
     Neighbourhood neighbourhood(HalfEdge half_edge, const glm::dvec3& at) const;
     /// Whether segments lie over each other by the dozen, so that many come near an edge.
-    bool has_crowds() const { return !pieces_.is_empty(); }
+    bool has_crowds() const { return !directed_.is_empty(); }
 
     /// What seam_partner() chooses from along one edge, wherever the point lies.
     class SeamCandidates {
@@ -97,15 +98,17 @@ class BorderIndex {
     void visit_boxes(const glm::dvec3& low, const glm::dvec3& high, const Visit& visit) const;
     bool has_several_polygons() const;
     double reach_part_in_crowd() const;
-    const SegmentTree& finest() const { return pieces_.is_empty() ? whole_ : pieces_; }
+    template <typename Visit>
+    void visit_nearest(const glm::dvec3& direction, const glm::dvec3& at, const double& reach,
+                       const Visit& visit) const;
 
     std::vector<Segment> segments_;  // by half-edge
     double reach_part_ = 0;          // how near a partner must be, in lengths of the edge
     SegmentTree whole_;              // of whole segments
     /// The lowest and the highest corner of the box around each segment, by which boxes that lie over each other are
-    /// told apart, as those of needles through a point, which all have one middle. Empty where pieces_ is.
+    /// told apart, as those of needles through a point, which all have one middle. Empty where directed_ is.
     PointTree<6, float> boxes_;
-    SegmentTree pieces_;  // of short pieces, where boxes around whole ones lie over each other by the dozen; else empty
+    DirectedSegments directed_;  // where boxes around whole ones lie over each other by the dozen; else empty
 };
 
 /// The segments nearest to a place on one edge, of which one may be its partner, and how near all others are at least.

@@ -71,6 +71,17 @@ glm::dvec3 CrackSides::inward(std::uint32_t segment) const {
     return way / std::max(glm::length(way), 1e-300);
 }
 
+double CrackSides::length_of_directions() const {
+    constexpr double kPart = 1.0 / 20;
+    glm::dvec3 low = segments_.front().a, high = low;
+    for (const BorderIndex::Segment& s : segments_) {
+        low = glm::min(low, glm::min(s.a, s.b));
+        high = glm::max(high, glm::max(s.a, s.b));
+    }
+    const glm::dvec3 size = high - low;
+    return kPart * std::max({size.x, size.y, size.z});
+}
+
 bool CrackSides::all_fold_back(const glm::dvec3& inward, const glm::dvec3& low, const glm::dvec3& high) {
     constexpr double kRounding = 1e-9;
     const glm::dvec3 least = glm::min(inward * low, inward * high);

@@ -35,6 +35,9 @@ class CrackSides {
     bool are_beside(std::uint32_t s, std::uint32_t t) const;
     /// The direction from the border into its polygon.
     glm::dvec3 inward(std::uint32_t segment) const;
+    /// The length that directions have in trees of places and directions: a part of how far borders reach. In a pile,
+    /// what lies in one place is told apart by its polygon; elsewhere places tell more.
+    double length_of_directions() const;
     /// Whether no border with a direction inward in a box is beside one with direction `inward`: each of their polygons
     /// folds back over the other one. In a pile that is so of nearly all.
     static bool all_fold_back(const glm::dvec3& inward, const glm::dvec3& low, const glm::dvec3& high);

@@ -43,11 +43,13 @@ class Middles {
     explicit Middles(const CrackSides& sides) : sides_(sides) {
         if (!sides.mesh().borders.has_crowds()) return;
         // The boxes of borders would tell little.
+        per_inward_ = sides.length_of_directions();
         std::vector<Tree::Point> points;
         points.reserve(sides.segments().size());
         for (std::uint32_t i = 0; i < sides.segments().size(); ++i) {
             const Segment& s = sides.segments()[i];
-            const glm::dvec3 middle = 0.5 * (s.a + s.b), half = 0.5 * (s.b - s.a), inward = sides.inward(i);
+            const glm::dvec3 middle = 0.5 * (s.a + s.b), half = 0.5 * (s.b - s.a),
+                             inward = per_inward_ * sides.inward(i);
             points.push_back({{middle.x, middle.y, middle.z, half.x, half.y, half.z, inward.x, inward.y, inward.z}, i});
         }
         tree_ = Tree(std::move(points));
@@ -60,7 +62,7 @@ class Middles {
         const Segment& s = sides_.segments()[border];
         const glm::dvec3 middle = 0.5 * (s.a + s.b);
         if (tree_.is_empty()) return sides_.mesh().borders.find_in_box(middle - reach, middle + reach, near);
-        const glm::dvec3 half = 0.5 * (s.b - s.a), inward = sides_.inward(border);
+        const glm::dvec3 half = 0.5 * (s.b - s.a), inward = sides_.inward(border) / per_inward_;
         const double around = reach * (1 + 1e-6);
         const auto touches = [around](const glm::dvec3& place, const glm::dvec3& low, const glm::dvec3& high) {
             return glm::all(glm::lessThanEqual(low, place + around)) &&
@@ -84,6 +86,7 @@ class Middles {
   private:
     using Tree = PointTree<9>;
     const CrackSides& sides_;
+    double per_inward_ = 1;  // by which directions become lengths
     Tree tree_;
 };
 

@@ -34,15 +34,8 @@ class Corners {
   public:
     explicit Corners(const CrackSides& sides) : sides_(sides) {
         if (!sides.mesh().borders.has_crowds()) return;
-        // The boxes of borders would tell little. In a pile, what lies in one place is told apart by its polygon.
-        constexpr double kInwardPart = 1.0 / 20;
-        glm::dvec3 low = sides.segments().front().a, high = low;
-        for (const Segment& s : sides.segments()) {
-            low = glm::min(low, glm::min(s.a, s.b));
-            high = glm::max(high, glm::max(s.a, s.b));
-        }
-        const glm::dvec3 size = high - low;
-        per_inward_ = kInwardPart * std::max({size.x, size.y, size.z});
+        // The boxes of borders would tell little.
+        per_inward_ = sides.length_of_directions();
         std::vector<Tree::Point> ends;
         ends.reserve(2 * sides.segments().size());
         for (std::uint32_t i = 0; i < sides.segments().size(); ++i) {

@@ -6,6 +6,7 @@
 
 #include "abuffer/edges/fold_width.h"
 #include "abuffer/edges/occluder.h"
+#include "abuffer/fine/covering_triangles.h"
 #include "abuffer/fine/drawn_parts.h"
 #include "abuffer/fine/fine_cells.h"
 #include "abuffer/hiding/contacts.h"
@@ -32,6 +33,12 @@ constexpr std::size_t kManyInCell = 256, kMostLooksInHeap = std::size_t{1} << 18
 constexpr std::size_t kFewCandidates = 12;
 /// What rounding does to nearness, as part of what counts as level.
 constexpr double kRoundingOfNearness = 1.0 / 64;
+
+/// Whether lines in a block are looked at, if there are this many triangles near each. More triangles near each are
+/// never fewer looks.
+bool are_few(std::size_t lines, std::size_t triangles_per_line) {
+    return lines * triangles_per_line <= (triangles_per_line > kManyInCell ? kMostLooksInHeap : kMostLooks);
+}
 
 }  // namespace
 
@@ -376,21 +383,30 @@ void FineLines::find(std::size_t tile, std::span<const FinePart> parts, std::vec
     blocks_.fill(tile, candidates_);
     for (std::size_t block = 0; block < blocks_.count(); ++block) {
         throw_if_interrupted();
-        const FinePart& any = candidates_[blocks_.candidates(block).front()].part;
-        clipper_->set_triangles(blocks_.triangles(block),
-                                glm::ivec2(glm::dvec2(grid_.begin(any.block_x), grid_.begin(any.block_y))),
-                                blocks_.candidates(block).size());
+        const std::span<const std::uint32_t> numbers = blocks_.candidates(block);
+        const FinePart& any = candidates_[numbers.front()].part;
+        const glm::ivec2 corner(glm::dvec2(grid_.begin(any.block_x), grid_.begin(any.block_y)));
+        if (is_left_to_samples(block, corner)) continue;
+        clipper_->set_triangles(blocks_.triangles(block), corner, numbers.size());
         find_in_block(block, pieces);
     }
 }
 
+/// Whether so many triangles lie over all of a block that there are too many for each line, whatever cells it is cut
+/// into. Loose edges are never left to the samples.
+bool FineLines::is_left_to_samples(std::size_t block, glm::ivec2 corner) const {
+    const std::span<const std::uint32_t> numbers = blocks_.candidates(block);
+    const std::vector<CrossedTriangle>& triangles = blocks_.triangles(block);
+    return !are_few(numbers.size(), triangles.size()) &&
+           !are_few(numbers.size(), count_covering(screen_, triangles, corner)) &&
+           std::none_of(numbers.begin(), numbers.end(),
+                        [&](std::uint32_t i) { return candidates_[i].line.is_loose(); });
+}
+
 void FineLines::find_in_block(std::size_t block, std::vector<LinePiece>& pieces) {
     const std::span<const std::uint32_t> numbers = blocks_.candidates(block);
-    const auto are_few = [&](std::size_t count) {
-        const std::size_t per_cell = clipper_->triangles_per_cell();
-        return count * per_cell <= (per_cell > kManyInCell ? kMostLooksInHeap : kMostLooks);
-    };
-    if (are_few(numbers.size())) {
+    const std::size_t per_cell = clipper_->triangles_per_cell();
+    if (are_few(numbers.size(), per_cell)) {
         if (numbers.size() > kFewCandidates && !draws_each_)
             return clipper_->add_not_covered(candidates_, numbers, pieces);
         for (const std::uint32_t i : numbers) clipper_->add_visible(candidates_[i], pieces);
@@ -399,7 +415,7 @@ void FineLines::find_in_block(std::size_t block, std::vector<LinePiece>& pieces)
     // Samples tell nothing about loose edges: where these alone are too many, all of them are drawn.
     const auto is_loose_one = [&](std::uint32_t i) { return candidates_[i].line.is_loose(); };
     const bool are_few_loose =
-        are_few(static_cast<std::size_t>(std::count_if(numbers.begin(), numbers.end(), is_loose_one)));
+        are_few(static_cast<std::size_t>(std::count_if(numbers.begin(), numbers.end(), is_loose_one)), per_cell);
     for (const std::uint32_t i : numbers) {
         if (!is_loose_one(i)) continue;
         if (are_few_loose) {

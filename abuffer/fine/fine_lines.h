@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
 #include <memory>
 #include <span>
 #include <vector>
@@ -35,6 +38,7 @@ class FineLines {
     bool is_loose(const FineEdge& edge) const {
         return edge.half_edge >= 3 * screen_.mesh(edge.instance).triangle_count;
     }
+    bool is_left_to_samples(std::size_t block, glm::ivec2 corner) const;
     void find_in_block(std::size_t block, std::vector<LinePiece>& pieces);
 
     const ScreenSurfaces& screen_;
