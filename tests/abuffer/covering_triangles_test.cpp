@@ -33,15 +33,18 @@ PolygonSoup random_triangles(Random& random, int count) {
     return soup;
 }
 
-/// Whether a triangle has all corners of a block in it, with whole numbers.
-bool has_corners(const ScreenVertex (&t)[3], glm::ivec2 corner) {
+/// Whether a triangle has all corners of a block in it, exactly: its corners are rounded to whole numbers of 24 bits,
+/// and products of their distances have 64 bits, as many as this type keeps.
+bool has_corners(const CrossedTriangle& t, glm::ivec2 corner) {
+    using Exact = long double;
     bool has_left = false, has_right = false;
     for (const glm::ivec2& p : {corner, corner + glm::ivec2(2048, 0), corner + glm::ivec2(0, 2048), corner + 2048}) {
         for (std::size_t k = 0; k < 3; ++k) {
-            const ScreenVertex &a = t[k], &b = t[(k + 1) % 3];
-            const std::int64_t side = std::int64_t{b.x - a.x} * (p.y - a.y) - std::int64_t{b.y - a.y} * (p.x - a.x);
-            has_left |= side > 0;
-            has_right |= side < 0;
+            const std::size_t next = (k + 1) % 3;
+            const Exact along_x = Exact{t.x[next]} - t.x[k], along_y = Exact{t.y[next]} - t.y[k];
+            const Exact to_left = along_x * (p.y - Exact{t.y[k]}), to_right = along_y * (p.x - Exact{t.x[k]});
+            has_left |= to_left > to_right;
+            has_right |= to_left < to_right;
         }
     }
     return has_left != has_right;
@@ -67,8 +70,7 @@ TEST(CoveringTriangles, AreThoseWithAllCornersOfABlockAndAreInEachCell) {
             const glm::ivec2 corner = 2048 * glm::ivec2(random.integer(0, 11), random.integer(0, 11)) + 64;
             std::size_t expected = 0;
             for (const CrossedTriangle& t : triangles)
-                expected += screen.facing(t.number) != off_screen &&
-                            has_corners(screen.triangle(screen.surface_of(t.number)).corners, corner);
+                expected += screen.facing(t.number) != off_screen && has_corners(t, corner);
             ASSERT_EQ(count_covering(screen, triangles, corner), expected) << "seed " << seed;
             cells.set(triangles, corner, 1000);
             ASSERT_GE(cells.triangles_per_cell(), expected) << "seed " << seed;
