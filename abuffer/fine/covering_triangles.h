@@ -7,12 +7,12 @@
 #include "abuffer/screen/screen_surfaces.h"
 #include "kernels/tile_kernels.h"
 
-// Heaps of large triangles are told before they are sorted.
+// A count of triangles that shows, before they are sorted to the cells of a block, that each cell will get too many.
 
 namespace burin {
 
-/// How many triangles, none of them clipped, lie over all of a block whose corner is given, in 1/256 pixel. So many are
-/// in each of its cells at least.
+/// Counts the triangles, none of them clipped, that cover a whole block, whose upper left corner is given in 1/256
+/// pixel. Each cell of the block has at least so many.
 std::size_t count_covering(const ScreenSurfaces& screen, const std::vector<CrossedTriangle>& triangles,
                            glm::ivec2 corner);
 

@@ -34,8 +34,8 @@ constexpr std::size_t kFewCandidates = 12;
 /// What rounding does to nearness, as part of what counts as level.
 constexpr double kRoundingOfNearness = 1.0 / 64;
 
-/// Whether lines in a block are looked at, if there are this many triangles near each. More triangles near each are
-/// never fewer looks.
+/// Whether lines in a block are few enough to be compared one by one with this many triangles near each. If they are
+/// not, they are not with more triangles either.
 bool are_few(std::size_t lines, std::size_t triangles_per_line) {
     return lines * triangles_per_line <= (triangles_per_line > kManyInCell ? kMostLooksInHeap : kMostLooks);
 }
