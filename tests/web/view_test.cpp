@@ -376,7 +376,7 @@ TEST(View, ABrowserThatCannotBeOpenedIsSaid) {
         const std::string begin = "http://127.0.0.1:";
         ASSERT_TRUE(address.starts_with(begin)) << address;
         Connection connection(static_cast<std::uint16_t>(std::stoi(address.substr(begin.size()))));
-        connection.send("GET / HTTP/1.1\r\n\r\n");
+        connection.send("GET / HTTP/1.1\r\nConnection: close\r\n\r\n");
         EXPECT_NE(connection.read_all(), "");  // it answers, so it has tried to open a browser
         program.send(SIGINT);
         const ProgramResult ended = program.wait();
