@@ -44,8 +44,8 @@ void FineBlocks::fill(std::size_t tile, std::span<const FineCandidate> candidate
     for (const TriangleRun& run : bins_.runs_in(tile)) add_small(run);
     for (const TriangleRun& run : bins_.thin_runs_in(tile)) add_small(run);
     sort_listed();
-    for (const std::uint32_t i : bins_.large_in(tile)) add_large(bins_.large(i));
-    for (const std::uint32_t i : bins_.thin_large_in(tile)) add_large(bins_.large(i));
+    large_known_.assign(bins_.large_count(), false);
+    add_large_of(tile);
     add_beyond(tile);
 }
 
@@ -66,9 +66,7 @@ void FineBlocks::add_beyond(std::size_t tile) {
                     sort_triangles(mesh, nearer_.data(), run.count);
                 }
             }
-            for (const auto& list : {bins_.large_in(*other), bins_.thin_large_in(*other)}) {
-                for (const std::uint32_t i : list) add_large(bins_.large(i));
-            }
+            add_large_of(*other);
         }
     }
 }
@@ -169,6 +167,17 @@ void FineBlocks::add_small(const TriangleRun& run) {
 void FineBlocks::sort_listed() {
     if (listed_ > 0) sort_triangles(screen_.mesh(listed_instance_), nearer_.data(), listed_);
     listed_ = 0;
+}
+
+/// Adds those large triangles that no other tile listed before.
+void FineBlocks::add_large_of(std::size_t tile) {
+    for (const auto& list : {bins_.large_in(tile), bins_.thin_large_in(tile)}) {
+        for (const std::uint32_t i : list) {
+            if (large_known_[i]) continue;
+            large_known_[i] = true;
+            add_large(bins_.large(i));
+        }
+    }
 }
 
 void FineBlocks::add_large(const LargePolygon& large) {

@@ -44,8 +44,8 @@ class FineBlocks {
     std::size_t count() const { return count_; }
     /// Numbers of candidates.
     std::span<const std::uint32_t> candidates(std::size_t block) const { return candidates_[block]; }
-    /// The triangles of a block, in no particular order. Some from beyond the tile may be listed twice. Triangles that
-    /// are clipped by the near plane or the guard band cover the whole screen.
+    /// The triangles of a block, in no particular order. Some small ones from beyond the tile may be listed twice.
+    /// Triangles that are clipped by the near plane or the guard band cover the whole screen.
     const std::vector<CrossedTriangle>& triangles(std::size_t block) const { return triangles_[block]; }
 
   private:
@@ -69,6 +69,7 @@ class FineBlocks {
     void add_small(const TriangleRun& run);
     void sort_listed();
     void add_beyond(std::size_t tile);
+    void add_large_of(std::size_t tile);
     void add_large(const LargePolygon& large);
     void sort_triangles(const ScreenMesh& mesh, const std::uint32_t* listed, std::size_t count);
     void add(const CrossedTriangle& triangle, const Box& box, std::span<const PolygonRows::Corner> corners);
@@ -92,6 +93,7 @@ class FineBlocks {
     std::uint32_t listed_instance_ = 0;
     std::vector<std::vector<std::uint32_t>> candidates_;  // per block
     std::vector<std::vector<CrossedTriangle>> triangles_;
+    std::vector<bool> large_known_;  // of all large triangles: whether it was listed for this tile
     std::vector<HidingInBlock> found_;
     std::vector<std::uint32_t> others_;
     std::vector<glm::ivec2> places_;  // of those with candidates

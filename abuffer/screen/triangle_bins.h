@@ -56,6 +56,7 @@ class TriangleBins {
     /// Numbers into large().
     std::span<const std::uint32_t> large_in(std::size_t tile) const { return large_in_.of(tile); }
     const LargePolygon& large(std::uint32_t i) const { return large_[i]; }
+    std::size_t large_count() const { return large_.size(); }
     /// The runs and large polygons that lie between samples.
     std::span<const TriangleRun> thin_runs_in(std::size_t tile) const { return thin_runs_.of(tile); }
     std::span<const std::uint32_t> thin_large_in(std::size_t tile) const { return thin_large_in_.of(tile); }
