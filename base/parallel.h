@@ -28,12 +28,20 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
 /// it reads there. Then it helps the others, from the ends of their parts.
 void parallel_for_parts(std::size_t count, int threads, const std::function<void(std::size_t index, int worker)>& work);
 
+/// Cuts [0, count) into batches of `size` indices, the last one shorter, and calls work(batch, begin, end) once for
+/// each.
+template <typename Work>
+void parallel_for_batches(std::size_t count, std::size_t size, int threads, const Work& work) {
+    parallel_for((count + size - 1) / size, threads,
+                 [&](std::size_t batch, int) { work(batch, batch * size, std::min(count, (batch + 1) * size)); });
+}
+
 /// Calls work(i) once for every i in [0, count), many in a row on one thread: for work that is little by itself.
 template <typename Work>
 void parallel_for_each(std::size_t count, int threads, const Work& work) {
-    constexpr std::size_t kChunk = 1 << 14;
-    parallel_for((count + kChunk - 1) / kChunk, threads, [&](std::size_t chunk, int) {
-        for (std::size_t i = chunk * kChunk, end = std::min(count, i + kChunk); i < end; ++i) work(i);
+    constexpr std::size_t kAtOnce = 1 << 14;
+    parallel_for_batches(count, kAtOnce, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) work(i);
     });
 }
 

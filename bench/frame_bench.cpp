@@ -72,7 +72,7 @@ struct View {
         settings.fov_deg = 35;
         settings.fit = 0.95;
         const Camera camera = resolve_camera(settings, scene_points(scene), static_cast<double>(width) / height);
-        close_cracks(scene, camera, width, height);
+        close_cracks(scene, camera, width, height, 1);
         prepared = prepare_for_abuffer(scene, 1);
         frame = make_frame(scene, camera, width, height, {0, 0, width, height}, &prepared);
     }

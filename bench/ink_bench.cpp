@@ -84,7 +84,7 @@ std::string measure(const std::string& model, int width, int height, int runs) {
     settings.fov_deg = 35;
     settings.fit = 0.95;
     const Camera camera = resolve_camera(settings, scene_points(scene), static_cast<double>(width) / height);
-    close_cracks(scene, camera, width, height);
+    close_cracks(scene, camera, width, height, 1);
     JsonWriter json;
     json.begin_object().key("runs").value(runs).key("width").value(width).key("height").value(height);
     for (const double width_px : {1.0, 3.0}) {

@@ -153,7 +153,7 @@ void SceneForFrame::make_frame_of(const burin_view& view, const OptionsInput& op
     }
     empty_copied_objects(scene_, &replaced_);
     const std::size_t replaced_for_all = replaced_.size();
-    close_cracks(scene_, camera, input.width, input.height, &replaced_);
+    close_cracks(scene_, camera, input.width, input.height, options.threads, &replaced_);
     closes_cracks_ = replaced_.size() != replaced_for_all;
     prepare(options);
     frame_ = make_frame(scene_, camera, input.width, input.height, input.crop, &prepared_);

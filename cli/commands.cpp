@@ -25,7 +25,7 @@ void run_explain(const Arguments& a) {
     const Camera& camera = still.camera;
     note_missing_blur(scene, camera, a, "burin explain");
     empty_copied_objects(scene);
-    close_cracks(scene, camera, scene.picture.width, scene.picture.height);
+    close_cracks(scene, camera, scene.picture.width, scene.picture.height, a.threads);
     const Frame frame = frame_of(scene, camera, a);
     const auto [x, y] = *a.pixel;
     if (x < 0 || y < 0 || x >= frame.width || y >= frame.height) {

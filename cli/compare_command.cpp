@@ -128,7 +128,7 @@ void run_compare(const Arguments& a) {
         const Camera& camera = still.camera;
         note_missing_blur(scene, camera, a, "burin compare");
         empty_copied_objects(scene);
-        close_cracks(scene, camera, scene.picture.width, scene.picture.height);
+        close_cracks(scene, camera, scene.picture.width, scene.picture.height, a.threads);
         const Frame frame = frame_of(scene, camera, a);
         view = {frame.camera, frame.width, frame.height, frame.crop};
     }

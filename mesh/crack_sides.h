@@ -14,6 +14,9 @@ namespace burin {
 /// How far apart the two sides of a crack may be at a place, in units of the mesh; 0 or less: not at all.
 using CrackReach = std::function<double(const glm::dvec3& position)>;
 
+/// A thread looks for what is beside this many borders in a row.
+constexpr std::size_t kBordersAtOnce = 256;
+
 /// The borders of a mesh, as sides of cracks.
 class CrackSides {
   public:

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <iterator>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "base/interrupt.h"
+#include "base/parallel.h"
 #include "mesh/point_tree.h"
 #include "mesh/vertex_clusters.h"
 
@@ -90,54 +93,80 @@ class Middles {
     Tree tree_;
 };
 
-/// All cracks that are narrow enough, the narrowest first.
-std::vector<Crack> find_cracks(const CrackSides& sides) {
-    std::vector<Crack> cracks, beside;
-    std::vector<std::uint32_t> near;
-    const Middles middles(sides);
-    std::vector<bool> is_in_pile(sides.segments().size());
-    std::size_t asked = 0;
-    for (const std::uint32_t i : sides.mesh().borders.by_place()) {
-        if ((asked++ & 0xF) == 0) throw_if_interrupted();
-        const double widest = sides.widest(i, sides.length(i));
-        if (!(widest > 0)) continue;
-        const Segment& s = sides.segments()[i];
-        beside.clear();
+/// Finds what is beside one border.
+class BesideFinder {
+  public:
+    BesideFinder(const CrackSides& sides, const Middles& middles) : sides_(sides), middles_(middles) {}
+
+    /// The cracks between a border and others; more than kMostBeside, though not all, where it is one of a pile.
+    const std::vector<Crack>& cracks_of(std::uint32_t i) {
+        beside_.clear();
+        const double widest = sides_.widest(i, sides_.length(i));
+        if (!(widest > 0)) return beside_;
+        const Segment& s = sides_.segments()[i];
         const glm::dvec3 middle = 0.5 * (s.a + s.b);
-        middles.find(i, widest, near);
-        for (const std::uint32_t j : near) {
+        middles_.find(i, widest, near_);
+        for (const std::uint32_t j : near_) {
             if (j == i) continue;
-            const Segment& t = sides.segments()[j];
+            const Segment& t = sides_.segments()[j];
             const glm::dvec3 off = 0.5 * (t.a + t.b) - middle;
             if (glm::dot(off, off) > kRoundedUp * widest * widest) continue;  // most lie in boxes that merely overlap
             const double opposite = std::max(glm::distance(s.a, t.b), glm::distance(s.b, t.a));
             const double along = std::max(glm::distance(s.a, t.a), glm::distance(s.b, t.b));
             Crack crack;
             crack.width = std::min(opposite, along);
-            if (crack.width > std::min(widest, sides.widest(j, sides.length(j))) || !sides.are_beside(i, j)) continue;
+            if (crack.width > std::min(widest, sides_.widest(j, sides_.length(j))) || !sides_.are_beside(i, j))
+                continue;
             crack.place = {s.a, s.b, t.a, t.b};
             if (is_less(t.a, s.a) || (t.a == s.a && is_less(t.b, s.b))) crack.place = {t.a, t.b, s.a, s.b};
-            const auto [sa, sb] = sides.ends(i);
-            const auto [ta, tb] = sides.ends(j);
+            const auto [sa, sb] = sides_.ends(i);
+            const auto [ta, tb] = sides_.ends(j);
             crack.joins = {std::pair(sa, opposite <= along ? tb : ta), std::pair(sb, opposite <= along ? ta : tb)};
             crack.sides = {i, j};
-            beside.push_back(crack);
-            if (beside.size() > kMostBeside) break;
+            beside_.push_back(crack);
+            if (beside_.size() > kMostBeside) break;
         }
-        is_in_pile[i] = beside.size() > kMostBeside;
-        if (is_in_pile[i]) continue;
-        std::copy_if(beside.begin(), beside.end(), std::back_inserter(cracks),
-                     [](const Crack& c) { return c.sides[0] < c.sides[1]; });
+        return beside_;
     }
-    std::erase_if(cracks, [&](const Crack& c) { return is_in_pile[c.sides[0]] || is_in_pile[c.sides[1]]; });
+
+  private:
+    const CrackSides& sides_;
+    const Middles& middles_;
+    std::vector<std::uint32_t> near_;
+    std::vector<Crack> beside_;
+};
+
+/// All cracks that are narrow enough, the narrowest first.
+std::vector<Crack> find_cracks(const CrackSides& sides, int threads) {
+    const Middles middles(sides);
+    const std::span<const std::uint32_t> borders = sides.mesh().borders.by_place();
+    std::vector<std::uint8_t> is_in_pile(sides.segments().size());
+    std::vector<std::vector<Crack>> in_batches(borders.size() / kBordersAtOnce + 1);
+    parallel_for_batches(borders.size(), kBordersAtOnce, threads,
+                         [&](std::size_t batch, std::size_t begin, std::size_t end) {
+                             BesideFinder finder(sides, middles);
+                             for (std::size_t b = begin; b < end; ++b) {
+                                 throw_if_interrupted();
+                                 const std::vector<Crack>& beside = finder.cracks_of(borders[b]);
+                                 is_in_pile[borders[b]] = beside.size() > kMostBeside;
+                                 if (is_in_pile[borders[b]]) continue;
+                                 std::copy_if(beside.begin(), beside.end(), std::back_inserter(in_batches[batch]),
+                                              [](const Crack& c) { return c.sides[0] < c.sides[1]; });
+                             }
+                         });
+    std::vector<Crack> cracks;
+    for (const std::vector<Crack>& some : in_batches) {
+        std::copy_if(some.begin(), some.end(), std::back_inserter(cracks),
+                     [&](const Crack& c) { return !is_in_pile[c.sides[0]] && !is_in_pile[c.sides[1]]; });
+    }
     std::sort(cracks.begin(), cracks.end(), is_before);
     return cracks;
 }
 
 }  // namespace
 
-std::optional<Mesh> join_borders(const Mesh& mesh, const CrackReach& reach) {
-    const std::vector<Crack> cracks = find_cracks(CrackSides(mesh, reach));
+std::optional<Mesh> join_borders(const Mesh& mesh, const CrackReach& reach, int threads) {
+    const std::vector<Crack> cracks = find_cracks(CrackSides(mesh, reach), threads);
     if (cracks.empty()) return std::nullopt;
     std::vector<VertexClusters::Pair> pairs;
     for (const Crack& crack : cracks) pairs.insert(pairs.end(), crack.joins.begin(), crack.joins.end());

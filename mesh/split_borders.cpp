@@ -1,11 +1,13 @@
 #include "mesh/split_borders.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <span>
 #include <vector>
 
 #include "base/interrupt.h"
+#include "base/parallel.h"
 #include "mesh/edge_links.h"
 #include "mesh/near_segment.h"
 #include "mesh/point_tree.h"
@@ -115,6 +117,31 @@ void find_cuts(const CrackSides& sides, const Corners& corners, std::uint32_t i,
     cuts.erase(end, cuts.end());
 }
 
+/// The cuts of all borders, in no order of these; none if there are too many.
+std::vector<Cut> find_all_cuts(const CrackSides& sides, int threads) {
+    // A corner cuts one border or two. Where there are many more, borders lie in a pile.
+    const std::size_t most_cuts = 16 * sides.segments().size();
+    const Corners corners(sides);
+    const std::span<const std::uint32_t> borders = sides.mesh().borders.by_place();
+    std::vector<std::vector<Cut>> in_batches(borders.size() / kBordersAtOnce + 1);
+    std::atomic<std::size_t> count{0};
+    parallel_for_batches(borders.size(), kBordersAtOnce, threads,
+                         [&](std::size_t batch, std::size_t begin, std::size_t end) {
+                             std::vector<std::uint32_t> near;
+                             std::vector<Cut>& cuts = in_batches[batch];
+                             for (std::size_t b = begin; b < end && count <= most_cuts; ++b) {
+                                 throw_if_interrupted();
+                                 const std::size_t before = cuts.size();
+                                 find_cuts(sides, corners, borders[b], near, cuts);
+                                 count += cuts.size() - before;
+                             }
+                         });
+    if (count > most_cuts) return {};
+    std::vector<Cut> cuts;
+    for (const std::vector<Cut>& some : in_batches) cuts.insert(cuts.end(), some.begin(), some.end());
+    return cuts;
+}
+
 /// A triangle, or a part of one, and which edges of the whole one its own three are (3: none).
 struct Part {
     std::array<std::uint32_t, 3> corners;
@@ -166,19 +193,8 @@ void add_rows(const Mesh& mesh, std::uint32_t triangle, const AttributeLayer& fr
 
 }  // namespace
 
-std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach) {
-    const CrackSides sides(mesh, reach);
-    // A corner cuts one border or two. Where there are many more, borders lie in a pile.
-    const std::size_t most_cuts = 16 * sides.segments().size();
-    const Corners corners(sides);
-    std::vector<Cut> cuts;
-    std::vector<std::uint32_t> near;
-    std::size_t asked = 0;
-    for (const std::uint32_t i : mesh.borders.by_place()) {
-        if ((asked++ & 0xF) == 0) throw_if_interrupted();
-        find_cuts(sides, corners, i, near, cuts);
-        if (cuts.size() > most_cuts) return std::nullopt;
-    }
+std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach, int threads) {
+    std::vector<Cut> cuts = find_all_cuts(CrackSides(mesh, reach), threads);
     std::stable_sort(cuts.begin(), cuts.end(), [](const Cut& p, const Cut& q) { return p.half_edge < q.half_edge; });
     if (cuts.empty()) return std::nullopt;
     Mesh result = with_polygons_of(mesh);

@@ -8,6 +8,7 @@ namespace burin {
 
 /// Cuts borders where a corner of another border lies beside them (T-junctions), so that both can be joined from corner
 /// to corner. Nothing moves; triangles are cut into fans that belong to the same polygon. nullopt: there are none.
-std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach);
+/// `threads`: 0 = all cores.
+std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach, int threads);
 
 }  // namespace burin

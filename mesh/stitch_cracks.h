@@ -13,7 +13,7 @@ namespace burin {
 ///
 /// The sides of a crack are as near as `reach` and 1/20 of their length, or 1/4 of `reach` and 1/3 of their length, and
 /// half of the height of their triangles or 1/8 of `reach`. What folds back on itself within 20 degrees is no crack.
-/// The result does not depend on the order of the triangles.
-std::optional<Mesh> stitch_cracks(const Mesh& mesh, const CrackReach& reach);
+/// The result does not depend on the order of the triangles. `threads`: 0 = all cores.
+std::optional<Mesh> stitch_cracks(const Mesh& mesh, const CrackReach& reach, int threads);
 
 }  // namespace burin

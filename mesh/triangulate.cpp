@@ -12,6 +12,8 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
+constexpr std::uint32_t kNoCorner = 0xFFFFFFFFu;
+
 /// Twice the signed area of a triangle; positive when it turns left.
 double turn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) { return cross(b - a, c - a); }
 
@@ -59,17 +61,17 @@ class ReflexGrid {
         }
     }
 
-    /// True if test(i) holds for any reflex corner in the box.
+    /// A reflex corner in the box for which test(i) holds, or kNoCorner.
     template <typename Test>
-    bool any_in_box(glm::dvec2 low, glm::dvec2 high, const Test& test) const {
+    std::uint32_t find_in_box(glm::dvec2 low, glm::dvec2 high, const Test& test) const {
         for (int y = row(low.y); y <= row(high.y); ++y) {
             for (int x = column(low.x); x <= column(high.x); ++x) {
                 for (const std::uint32_t i : cells_[cell(x, y)]) {
-                    if (test(i)) return true;
+                    if (test(i)) return i;
                 }
             }
         }
-        return false;
+        return kNoCorner;
     }
 
     void remove(std::uint32_t i, glm::dvec2 p) { std::erase(cells_[cell(column(p.x), row(p.y))], i); }
@@ -98,6 +100,7 @@ class EarClipper {
           previous_(corners.size()),
           is_reflex_(find_reflex_corners()),
           is_refused_(corners.size(), false),
+          blocker_(corners.size(), kNoCorner),
           grid_(points_, is_reflex_) {}
 
     void clip(std::vector<Triangle>& triangles) {
@@ -149,25 +152,32 @@ class EarClipper {
     double turn_at(std::uint32_t i) const { return turn(points_[previous_[i]], points_[i], points_[next_[i]]); }
 
     /// An ear is a corner whose triangle holds no other corner. Only reflex corners can be in it.
-    bool is_ear(std::uint32_t i) const {
+    bool is_ear(std::uint32_t i) {
         if (is_reflex_[i]) return false;
         const std::uint32_t before = previous_[i];
         const std::uint32_t after = next_[i];
         const glm::dvec2 a = points_[before], b = points_[i], c = points_[after];
-        return !grid_.any_in_box(glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c), [&](std::uint32_t k) {
+        const auto blocks = [&](std::uint32_t k) {
             if (k == before || k == i || k == after) return false;
             const glm::dvec2 p = points_[k];
             // A repeated corner (the cut to a hole) does not block.
             if (p == a || p == b || p == c) return false;
             return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
-        });
+        };
+        std::uint32_t& blocker = blocker_[i];
+        if (blocker != kNoCorner && is_reflex_[blocker] && blocks(blocker)) return false;
+        blocker = grid_.find_in_box(glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c), blocks);
+        return blocker == kNoCorner;
     }
 
     /// Removes corner i and returns where to go on: two corners further, which avoids slivers.
     std::uint32_t cut_off(std::uint32_t i) {
         const std::uint32_t before = previous_[i];
         const std::uint32_t after = next_[i];
-        if (is_reflex_[i]) grid_.remove(i, points_[i]);
+        if (is_reflex_[i]) {
+            is_reflex_[i] = false;
+            grid_.remove(i, points_[i]);
+        }
         next_[before] = after;
         previous_[after] = before;
         for (const std::uint32_t k : {before, after}) {
@@ -183,7 +193,8 @@ class EarClipper {
     std::vector<glm::dvec2> points_;
     std::vector<std::uint32_t> next_, previous_;
     std::vector<bool> is_reflex_;
-    std::vector<bool> is_refused_;  // was no ear, and its neighbours are still the same
+    std::vector<bool> is_refused_;        // was no ear, and its neighbours are still the same
+    std::vector<std::uint32_t> blocker_;  // the corner that was in its triangle when last looked at, or kNoCorner
     ReflexGrid grid_;
 };
 

@@ -79,7 +79,7 @@ void drop_far_ones(std::vector<Placing>& placings, const Box& box, const Project
 
 }  // namespace
 
-void close_cracks(Scene& scene, const Camera& camera, int width, int height, ReplacedMeshes* replaced) {
+void close_cracks(Scene& scene, const Camera& camera, int width, int height, int threads, ReplacedMeshes* replaced) {
     const Projection projection = camera.projection(width, height, 0);
     const glm::dmat4 world_to_view = camera.to_view();
     std::vector<std::vector<Placing>> placings(scene.meshes.size());
@@ -107,7 +107,7 @@ void close_cracks(Scene& scene, const Camera& camera, int width, int height, Rep
             }
             return kWidestCrackPx * least;
         };
-        if (auto stitched = stitch_cracks(scene.meshes[i], reach))
+        if (auto stitched = stitch_cracks(scene.meshes[i], reach, threads))
             replace_mesh(scene, i, std::move(*stitched), replaced);
     }
 }

@@ -81,7 +81,7 @@ void ViewDrawer::with_frame(const View& view, const Wishes& wishes, const Use& u
     const double aspect = static_cast<double>(view.width) / view.height;
     const Camera camera = resolve_camera(settings, scene_points(scene), aspect);
     PutBack meshes(scene);
-    close_cracks(scene, camera, view.width, view.height, &meshes.replaced);
+    close_cracks(scene, camera, view.width, view.height, viewed_.threads(), &meshes.replaced);
     // What was made for the meshes as they are is of no use for others.
     const bool is_as_loaded = meshes.replaced.empty();
     if (is_as_loaded && !prepared_) prepared_ = prepare_for_abuffer(scene, viewed_.threads());

@@ -48,7 +48,7 @@ void PosedScene::make_ready(const Camera& camera) {
     put_back();
     ReplacedMeshes* const replaced = keeps_ ? &replaced_ : nullptr;
     empty_copied_objects(scene_, replaced);
-    close_cracks(scene_, camera, scene_.picture.width, scene_.picture.height, replaced);
+    close_cracks(scene_, camera, scene_.picture.width, scene_.picture.height, arguments_.threads, replaced);
     for (const auto& [number, mesh] : replaced_) changed_.insert(number);
     if (method_.name == "abuffer") prepare();
     ready_for_ = camera;

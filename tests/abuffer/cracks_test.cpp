@@ -48,7 +48,7 @@ double near(const Drawing& d, int x, int y, int reach) {
 
 Drawing draw(Scene scene, const Camera& camera, RenderFunction render) {
     scene.lines.crease_angle_deg = 75;  // few edges are near it
-    close_cracks(scene, camera, kSize, kSize);
+    close_cracks(scene, camera, kSize, kSize, 2);
     return Drawing(scene, camera, kSize, kSize, {0, 0, kSize, kSize}, 2, render);
 }
 
@@ -125,7 +125,7 @@ TEST(Cracks, AreWiderThanAPixelIfTheyAreInOneObject) {
         scene.objects.back().to_world = glm::dmat4(glm::dmat3(scale));
         if (along_view) scene.objects.back().to_world = {{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}, {0, 0, 0, 1}};
         scene.objects.back().to_world[3] = {0, 0, depth, 1};
-        close_cracks(scene, perspective_camera({0, 0, 6}, {0, 0, 0}), kSize, kSize);
+        close_cracks(scene, perspective_camera({0, 0, 6}, {0, 0, 0}), kSize, kSize, 2);
         return scene.meshes.front().borders.segments().size();
     };
     EXPECT_EQ(borders(1, 0), 6u);
@@ -144,7 +144,7 @@ TEST(Cracks, AreClosedThoughAnotherInstanceIsBehindTheEye) {
     two.objects.back().to_world[3] += glm::dvec4(0, 0, 40, 0);
     for (Scene* scene : {&alone, &two}) {
         const std::size_t before = scene->meshes[0].borders.segments().size();
-        close_cracks(*scene, camera, kSize, kSize);
+        close_cracks(*scene, camera, kSize, kSize, 2);
         EXPECT_LT(scene->meshes[0].borders.segments().size(), before / 10);
     }
     EXPECT_EQ(alone.meshes[0].triangles, two.meshes[0].triangles);

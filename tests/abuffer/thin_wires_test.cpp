@@ -242,7 +242,7 @@ TEST(ThinWires, OpenBandsAndTubes) {
         for (std::size_t i = 0; i < sides; ++i) open.add_polygon(closed.polygon(i));
         const Camera camera = seed % 4 < 2 ? pixel_camera(kFineSize, kFineSize) : pixels_in_perspective();
         Scene scene = scene_of({open});
-        close_cracks(scene, camera, kFineSize, kFineSize);
+        close_cracks(scene, camera, kFineSize, kFineSize, 2);
         const Found found = look(draw_fine(scene, camera, kFineSize), camera, wire);
         EXPECT_EQ(found.share, 1) << seed << ": " << words(wire) << ", " << sides;
         EXPECT_GT(found.strength, 0.96) << seed << ": " << words(wire) << ", " << sides;

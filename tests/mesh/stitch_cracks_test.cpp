@@ -86,7 +86,7 @@ TEST(StitchCracks, PolygonsThatFellApartAreOneSurface) {
         const double by =
             random.real(0.0001, 0.008);  // corners of one place are no farther apart than a third of any edge
         const Mesh cracked = shaken(polygons, by, seed);
-        const auto whole = stitch_cracks(cracked, everywhere(14 * by));
+        const auto whole = stitch_cracks(cracked, everywhere(14 * by), 2);
         ASSERT_TRUE(whole) << seed;
         EXPECT_TRUE(whole->borders.segments().empty()) << seed;
         for (HalfEdge h = 0; h < whole->next_on_edge.size(); ++h) {
@@ -112,7 +112,7 @@ TEST(StitchCracks, BordersWithDifferentCornersBecomeOne) {
         for (int i = 0; i < strips; ++i)
             add_patch(polygons, torus, {0, double(i) / strips}, {1, (i + 1.0) / strips}, random.integer(40, 90), 1);
         const Mesh cracked = shaken(polygons, 0.001, seed);
-        const auto whole = stitch_cracks(cracked, everywhere(0.02));
+        const auto whole = stitch_cracks(cracked, everywhere(0.02), 2);
         ASSERT_TRUE(whole) << seed;
         // Where corners of both sides are nearly, but not quite, in one place, short slits may be left.
         EXPECT_LT(length_of_borders(*whole), 0.02 * length_of_borders(cracked)) << seed;
@@ -131,10 +131,24 @@ TEST(StitchCracks, AFloorOfTilesHasNoBordersInside) {
         const Surface floor = [](double x, double z) { return glm::dvec3(x, 0, z); };
         for (int row = 0; row < 4; ++row) add_patch(polygons, floor, {0, row}, {10, row + 1}, 3 + 2 * row, 1);
         const Mesh cracked = shaken(polygons, by, 1);
-        const auto whole = stitch_cracks(cracked, everywhere(0.05));
+        const auto whole = stitch_cracks(cracked, everywhere(0.05), 2);
         ASSERT_TRUE(whole);
         EXPECT_NEAR(length_of_borders(*whole), 28, 0.1) << by;
     }
+}
+
+TEST(StitchCracks, DoNotDependOnTheNumberOfThreads) {
+    std::vector<Polygon> polygons;  // thousands of borders, more than one thread takes at once
+    constexpr int kStrips = 12;
+    for (int i = 0; i < kStrips; ++i)
+        add_patch(polygons, torus, {0, double(i) / kStrips}, {1, (i + 1.0) / kStrips}, 60 + 7 * i, 1);
+    const Mesh cracked = shaken(polygons, 0.001, 3);
+    ASSERT_GT(cracked.borders.segments().size(), 8 * kBordersAtOnce);
+    const auto of_one = stitch_cracks(cracked, everywhere(0.02), 1),
+               of_three = stitch_cracks(cracked, everywhere(0.02), 3);
+    ASSERT_TRUE(of_one && of_three);
+    EXPECT_EQ(of_one->positions, of_three->positions);
+    EXPECT_EQ(of_one->triangles, of_three->triangles);
 }
 
 TEST(StitchCracks, DoNotDependOnTheOrderOfPolygons) {
@@ -147,7 +161,7 @@ TEST(StitchCracks, DoNotDependOnTheOrderOfPolygons) {
             for (glm::dvec3& p : polygon) p += random.in_box(0.004);
         }
         const auto stitched = [&] {
-            return sorted_triangles(stitch_cracks(shaken(polygons, 0, 0), everywhere(0.03)).value());
+            return sorted_triangles(stitch_cracks(shaken(polygons, 0, 0), everywhere(0.03), 2).value());
         };
         const auto first = stitched();
         for (std::size_t i = polygons.size(); i > 1; --i) {
@@ -165,7 +179,7 @@ TEST(StitchCracks, WhatIsNoCrackStays) {
         return result;
     };
     const auto is_stitched = [](const std::vector<Polygon>& polygons, double reach) {
-        return stitch_cracks(shaken(polygons, 0, 0), everywhere(reach)).has_value();
+        return stitch_cracks(shaken(polygons, 0, 0), everywhere(reach), 2).has_value();
     };
     EXPECT_TRUE(is_stitched({square, moved({1.01, 0, 0})}, 0.02));
     EXPECT_FALSE(is_stitched({square, moved({1.01, 0, 0})}, 0.009));  // too wide to reach over
@@ -175,7 +189,7 @@ TEST(StitchCracks, WhatIsNoCrackStays) {
     EXPECT_FALSE(is_stitched({square, moved({0, 0, 0.01})}, 0.02));     // a stack
     EXPECT_FALSE(is_stitched({square, moved({1.01, 1.01, 0})}, 0.02));  // corner to corner
     EXPECT_FALSE(is_stitched({square}, 10));
-    EXPECT_FALSE(stitch_cracks(Mesh{}, everywhere(1)));
+    EXPECT_FALSE(stitch_cracks(Mesh{}, everywhere(1), 2));
 }
 
 // However far it may reach.
@@ -189,7 +203,7 @@ TEST(StitchCracks, NoTriangleCollapsesOrTurnsOver) {
         for (int i = 0; i < 4; ++i)
             add_patch(polygons, hills, {i, 0}, {i + 1, 4}, random.integer(1, 5), random.integer(1, 9));
         const Mesh cracked = shaken(polygons, random.real(0, 0.2), seed);
-        const auto whole = stitch_cracks(cracked, everywhere(std::pow(10.0, random.real(-3, 1))));
+        const auto whole = stitch_cracks(cracked, everywhere(std::pow(10.0, random.real(-3, 1))), 2);
         if (!whole) continue;
         for (std::uint32_t t = 0; t < whole->triangles.size(); ++t) {
             const auto& c = whole->triangles[t];
@@ -212,7 +226,7 @@ TEST(StitchCracks, PolesHaveNoHoles) {
         std::vector<Polygon> polygons;
         add_patch(polygons, sphere, {0, 0}, {1, 1}, 12, 8);
         const Mesh cracked = shaken(polygons, 0.001, seed);
-        const auto whole = stitch_cracks(cracked, everywhere(0.05));
+        const auto whole = stitch_cracks(cracked, everywhere(0.05), 2);
         ASSERT_TRUE(whole) << seed;
         // Two short edges may have been joined before they could be taken out.
         EXPECT_LT(length_of_borders(*whole), 0.01) << seed;
@@ -234,8 +248,8 @@ TEST(StitchCracks, ThinStripsAndSlatsStay) {
         slats.push_back(
             {slat, slat + glm::dvec3(30, 0, 0), slat + glm::dvec3(30, 0.35, 0.5), slat + glm::dvec3(0, 0.35, 0.5)});
     }
-    EXPECT_FALSE(stitch_cracks(shaken(hairs, 0, 0), everywhere(1)));
-    EXPECT_FALSE(stitch_cracks(shaken(slats, 0, 0), everywhere(1)));
+    EXPECT_FALSE(stitch_cracks(shaken(hairs, 0, 0), everywhere(1), 2));
+    EXPECT_FALSE(stitch_cracks(shaken(slats, 0, 0), everywhere(1), 2));
     // Cones and tubes that are open and thinner than what a needle's end is.
     const Surface cone = [](double u, double v) {
         const double a = 2 * std::numbers::pi * u;
@@ -249,7 +263,7 @@ TEST(StitchCracks, ThinStripsAndSlatsStay) {
         std::vector<Polygon> polygons;
         add_patch(polygons, surface, {0, 0}, {1, 1}, 8, 1);
         const Mesh thin = shaken(polygons, 0, 0);
-        const auto whole = stitch_cracks(thin, everywhere(1));
+        const auto whole = stitch_cracks(thin, everywhere(1), 2);
         EXPECT_EQ((whole ? *whole : thin).triangles.size(), thin.triangles.size());
     }
 }
@@ -268,7 +282,7 @@ TEST(StitchCracks, ThinBladesOfSeveralColumnsStay) {
                     std::vector<Polygon> polygons;
                     add_patch(polygons, blade, {0, 0}, {1, 1}, rows, columns);
                     const Mesh thin = shaken(polygons, 0, 0);
-                    const auto whole = stitch_cracks(thin, everywhere(1));
+                    const auto whole = stitch_cracks(thin, everywhere(1), 2);
                     const double before = length_of_borders(thin), after = length_of_borders(whole ? *whole : thin);
                     EXPECT_NEAR(after, before, 0.1 * before) << width << " " << fold << " " << columns << " " << rows;
                 }
@@ -285,7 +299,7 @@ TEST(StitchCracks, SmallPolygonsAreNoNeedles) {
             {at, at + glm::dvec3(0.01, 0, 0), at + glm::dvec3(0.01, 0.01, 0), at + glm::dvec3(0, 0.01, 0)});
         specks.push_back({at + glm::dvec3(0, 0.5, 0), at + glm::dvec3(0.01, 0.5, 0), at + glm::dvec3(0.005, 0.51, 0)});
     }
-    EXPECT_FALSE(stitch_cracks(shaken(specks, 0, 0), everywhere(1)));
+    EXPECT_FALSE(stitch_cracks(shaken(specks, 0, 0), everywhere(1), 2));
 }
 
 TEST(StitchCracks, MarksGoOnOverBothSides) {
@@ -303,7 +317,7 @@ TEST(StitchCracks, MarksGoOnOverBothSides) {
                                 {2, -0.01, 0}},
                                {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}});
     soup.marked_edges = {{0, 1}};
-    const auto whole = stitch_cracks(build_meshes(soup, {}).at(0), everywhere(0.02));
+    const auto whole = stitch_cracks(build_meshes(soup, {}).at(0), everywhere(0.02), 2);
     ASSERT_TRUE(whole);
     int marked = 0;
     for (HalfEdge h = 0; h < whole->next_on_edge.size(); ++h) {
