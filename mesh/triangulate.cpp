@@ -5,6 +5,7 @@
 
 #include "base/interrupt.h"
 #include "mesh/delaunay_flips.h"
+#include "mesh/index_set.h"
 #include "mesh/vectors.h"
 
 namespace burin {
@@ -44,20 +45,18 @@ std::vector<glm::dvec2> flattened(std::span<const glm::dvec3> corners) {
 /// The corners where the polygon turns right, findable by place.
 class ReflexGrid {
   public:
-    ReflexGrid(const std::vector<glm::dvec2>& points, const std::vector<bool>& is_reflex) {
-        std::size_t count = 0;
+    /// Keeps a reference to the points.
+    ReflexGrid(const std::vector<glm::dvec2>& points, const std::vector<bool>& is_reflex) : points_(points) {
         low_ = high_ = points[0];
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            low_ = glm::min(low_, points[i]);
-            high_ = glm::max(high_, points[i]);
-            count += is_reflex[i];
+        for (const glm::dvec2& p : points) {
+            low_ = glm::min(low_, p);
+            high_ = glm::max(high_, p);
         }
+        const auto count = std::count(is_reflex.begin(), is_reflex.end(), true);
         side_ = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(count))));
         cells_.resize(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_));
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            if (is_reflex[i]) {
-                cells_[cell(column(points[i].x), row(points[i].y))].push_back(static_cast<std::uint32_t>(i));
-            }
+        for (std::uint32_t i = 0; i < points.size(); ++i) {
+            if (is_reflex[i]) cells_[cell(column(points[i].x), row(points[i].y))].push_back(i);
         }
     }
 
@@ -74,7 +73,7 @@ class ReflexGrid {
         return kNoCorner;
     }
 
-    void remove(std::uint32_t i, glm::dvec2 p) { std::erase(cells_[cell(column(p.x), row(p.y))], i); }
+    void remove(std::uint32_t i) { std::erase(cells_[cell(column(points_[i].x), row(points_[i].y))], i); }
 
   private:
     int place(double value, double low, double high) const {
@@ -87,8 +86,9 @@ class ReflexGrid {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(x);
     }
 
+    const std::vector<glm::dvec2>& points_;
     glm::dvec2 low_, high_;
-    int side_;
+    int side_ = 1;
     std::vector<std::vector<std::uint32_t>> cells_;
 };
 
@@ -99,36 +99,29 @@ class EarClipper {
           next_(corners.size()),
           previous_(corners.size()),
           is_reflex_(find_reflex_corners()),
-          is_refused_(corners.size(), false),
+          open_(static_cast<std::uint32_t>(corners.size())),
           blocker_(corners.size(), kNoCorner),
-          grid_(points_, is_reflex_) {}
+          grid_(points_, is_reflex_) {
+        open_all(0);
+    }
 
     void clip(std::vector<Triangle>& triangles) {
         auto left = static_cast<std::uint32_t>(points_.size());
         std::uint32_t at = 0;
-        std::uint32_t refused = 0;  // corners in a row that were no ears
-        std::uint64_t limit = left;
         int second_looks = 0;
-        for (std::uint64_t step = 0; left > 3; ++step) {
-            if ((step & 0xFFFF) == 0) throw_if_interrupted();
+        for (; left > 3; --left) {
+            std::uint32_t ear = find_ear(at);
             // In a simple polygon, only its neighbours can make a corner an ear. Others get a few
             // second looks: more would take long where a large polygon crosses itself everywhere.
-            if (refused == left && second_looks < kMaxSecondLooks) {
-                std::fill(is_refused_.begin(), is_refused_.end(), false);
+            if (ear == kNoCorner && second_looks < kMaxSecondLooks) {
                 ++second_looks;
-                limit = std::uint64_t{2} * left;
+                open_all(at);
+                ear = find_ear(at);
             }
             // A polygon that crosses itself may run out of ears: then any corner is cut off.
-            if (refused < limit && (is_refused_[at] || !is_ear(at))) {
-                is_refused_[at] = true;
-                at = next_[at];
-                ++refused;
-                continue;
-            }
-            triangles.push_back({previous_[at], at, next_[at]});
-            at = cut_off(at);
-            limit = --left;
-            refused = 0;
+            if (ear == kNoCorner) ear = at;
+            triangles.push_back({previous_[ear], ear, next_[ear]});
+            at = cut_off(ear);
         }
         triangles.push_back({previous_[at], at, next_[at]});
     }
@@ -151,22 +144,44 @@ class EarClipper {
 
     double turn_at(std::uint32_t i) const { return turn(points_[previous_[i]], points_[i], points_[next_[i]]); }
 
+    /// The next ear from a corner on, along the polygon; those that are none are looked at no more until a neighbour is
+    /// cut off. kNoCorner: there is none.
+    std::uint32_t find_ear(std::uint32_t from) {
+        for (std::uint32_t i = open_.find_from(from);; i = open_.find_from(i)) {
+            if (i == IndexSet::kNone) i = open_.find_from(0);
+            if (i == IndexSet::kNone) return kNoCorner;
+            if ((looks_++ & 0xFFF) == 0) throw_if_interrupted();
+            if (is_ear(i)) return i;
+            open_.erase(i);
+        }
+    }
+    void open_all(std::uint32_t any) {
+        std::uint32_t i = any;
+        do {
+            open_.insert(i);
+            i = next_[i];
+        } while (i != any);
+    }
+
     /// An ear is a corner whose triangle holds no other corner. Only reflex corners can be in it.
     bool is_ear(std::uint32_t i) {
         if (is_reflex_[i]) return false;
         const std::uint32_t before = previous_[i];
         const std::uint32_t after = next_[i];
         const glm::dvec2 a = points_[before], b = points_[i], c = points_[after];
+        const glm::dvec2 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
         const auto blocks = [&](std::uint32_t k) {
             if (k == before || k == i || k == after) return false;
             const glm::dvec2 p = points_[k];
             // A repeated corner (the cut to a hole) does not block.
             if (p == a || p == b || p == c) return false;
-            return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
+            // The box matters where the three corners lie on one line.
+            return glm::all(glm::lessThanEqual(low, p)) && glm::all(glm::lessThanEqual(p, high)) &&
+                   turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
         };
         std::uint32_t& blocker = blocker_[i];
         if (blocker != kNoCorner && is_reflex_[blocker] && blocks(blocker)) return false;
-        blocker = grid_.find_in_box(glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c), blocks);
+        blocker = grid_.find_in_box(low, high, blocks);
         return blocker == kNoCorner;
     }
 
@@ -176,15 +191,16 @@ class EarClipper {
         const std::uint32_t after = next_[i];
         if (is_reflex_[i]) {
             is_reflex_[i] = false;
-            grid_.remove(i, points_[i]);
+            grid_.remove(i);
         }
         next_[before] = after;
         previous_[after] = before;
+        open_.erase(i);
         for (const std::uint32_t k : {before, after}) {
-            is_refused_[k] = false;
+            open_.insert(k);
             if (is_reflex_[k] && turn_at(k) > 0) {
                 is_reflex_[k] = false;
-                grid_.remove(k, points_[k]);
+                grid_.remove(k);
             }
         }
         return next_[after];
@@ -193,9 +209,10 @@ class EarClipper {
     std::vector<glm::dvec2> points_;
     std::vector<std::uint32_t> next_, previous_;
     std::vector<bool> is_reflex_;
-    std::vector<bool> is_refused_;        // was no ear, and its neighbours are still the same
+    IndexSet open_;                       // without those that were no ears, with the neighbours that they have now
     std::vector<std::uint32_t> blocker_;  // the corner that was in its triangle when last looked at, or kNoCorner
     ReflexGrid grid_;
+    std::uint32_t looks_ = 0;
 };
 
 /// Brings one of the triangles of a polygon with n corners to the front that begins with a side of the polygon.

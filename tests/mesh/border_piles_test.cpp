@@ -91,7 +91,8 @@ std::vector<Corners> triangles_of(const Mesh& mesh) {
 }
 std::vector<Corners> stitched(const std::vector<Polygon>& polygons) {
     const Mesh mesh = mesh_of(polygons);
-    const auto whole = stitch_cracks(mesh, [](const glm::dvec3&) { return 0.014; }, 2);
+    const auto whole = stitch_cracks(
+        mesh, [](const glm::dvec3&) { return 0.014; }, 2);
     return triangles_of(whole ? *whole : mesh);
 }
 

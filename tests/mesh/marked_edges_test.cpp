@@ -116,7 +116,8 @@ TEST(MarkedEdges, ClosedCracksKeepThem) {
     soup.marked_edges = {{7, 8}, {2, 8}, {8, 0}};
     const Mesh mesh = build_meshes(soup, {})[0];
     ASSERT_EQ(mesh.loose_edges.size(), 3u);
-    const auto stitched = stitch_cracks(mesh, [](const glm::dvec3&) { return 0.1; }, 2);
+    const auto stitched = stitch_cracks(
+        mesh, [](const glm::dvec3&) { return 0.1; }, 2);
     ASSERT_TRUE(stitched);
     EXPECT_EQ(stitched->loose_edges.size(), 3u);
     EXPECT_TRUE(has_line(*stitched, {0.5, 3, 1}, {1 + gap / 2, 1, 0}));

@@ -315,7 +315,8 @@ TEST_F(Attributes, OfLargeModelsAreInTheirOrder) {
 
 TEST_F(Attributes, AreBetweenThoseOfTheEndsWhereCracksAreClosed) {
     const Mesh mesh = read("a.obj", grid(8, [](int row) { return row % 2; })).meshes.at(0);
-    const auto stitched = stitch_cracks(mesh, [](const glm::dvec3&) { return 0.01; }, 2);
+    const auto stitched = stitch_cracks(
+        mesh, [](const glm::dvec3&) { return 0.01; }, 2);
     ASSERT_TRUE(stitched);
     EXPECT_GT(stitched->triangles.size(), mesh.triangles.size());
     expect_values(*stitched, Kind::uv, 1e-4, [](glm::dvec3 p, auto) { return plane_values(p); });
