@@ -83,7 +83,7 @@ std::string reason_of(const ExplainedStroke& stroke) {
         const auto c = static_cast<LineClass>(i);
         if (c != stroke.drawn_as && stroke.classes.has(c)) others |= c;
     }
-    if (!others.empty()) text += "; it is also " + to_string(others);
+    if (!others.empty()) text += "; also of class " + to_string(others);
     if (stroke.invisibility > 0) text += "; hidden, for a surface is in front of it";
     return text;
 }

@@ -80,7 +80,7 @@ TEST(ExplainStrokes, TakesTheNearestInk) {
         EXPECT_EQ(text_of(place.strokes), text_of(explain_strokes(frame, place.x, place.y)));
         EXPECT_EQ(reasons_of(place.strokes),
                   std::vector<std::string>{"silhouette of crate: its surface turns away from the eye here, before the "
-                                           "background; it is also crease"});
+                                           "background; also of class crease"});
     }
     for (const int reach_px : {0, 1, 2}) {
         const ExplainedPlace place = explain_strokes_near(frame, 20, 50, reach_px);
