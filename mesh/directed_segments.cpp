@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "base/interrupt.h"
+
 namespace burin {
 namespace {
 
@@ -117,6 +119,7 @@ DirectedSegments::DirectedSegments(std::span<const Ends> segments) {
     std::erase_if(numbers, [](const auto& of_class) { return of_class.empty(); });
     double width = 0;
     for (const std::vector<std::uint32_t>& of_class : numbers) {
+        throw_if_interrupted();
         const glm::dmat3 turn = glm::transpose(axes_of(segments, of_class));
         classes_.push_back({turn, 0, {}});
         for (const std::uint32_t i : of_class) width += width_of_box({turn * segments[i].a, turn * segments[i].b});
@@ -125,6 +128,7 @@ DirectedSegments::DirectedSegments(std::span<const Ends> segments) {
     const double pieces_per_unit = width > 0 ? static_cast<double>(most_more) / width : 0;
     std::vector<SegmentPiece> pieces;
     for (std::size_t c = 0; c < classes_.size(); ++c) {
+        throw_if_interrupted();
         const glm::dmat3& turn = classes_[c].turn;
         double least_cosine = 1;
         pieces.clear();

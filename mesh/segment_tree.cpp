@@ -48,7 +48,7 @@ SegmentTree::SegmentTree(std::span<const SegmentPiece> pieces, Cut cut) {
 void SegmentTree::build(std::span<const SegmentPiece> pieces, const glm::vec3& weight, std::uint32_t node,
                         std::uint32_t first, std::span<Place> places) {
     const auto count = static_cast<std::uint32_t>(places.size());
-    if (count > 0xFFFF) throw_if_interrupted();
+    if (count > 0xFFF) throw_if_interrupted();
     Node box;
     if (count > kLeafSize) {
         glm::vec3 low = places.front().middle, high = low;  // of middles: long pieces say nothing about where to cut

@@ -150,7 +150,7 @@ class EarClipper {
         for (std::uint32_t i = open_.find_from(from);; i = open_.find_from(i)) {
             if (i == IndexSet::kNone) i = open_.find_from(0);
             if (i == IndexSet::kNone) return kNoCorner;
-            if ((looks_++ & 0xFFF) == 0) throw_if_interrupted();
+            if ((looks_++ & 0xFF) == 0) throw_if_interrupted();
             if (is_ear(i)) return i;
             open_.erase(i);
         }
