@@ -209,7 +209,7 @@ class EarClipper {
     std::vector<glm::dvec2> points_;
     std::vector<std::uint32_t> next_, previous_;
     std::vector<bool> is_reflex_;
-    IndexSet open_;                       // without those that were no ears, with the neighbours that they have now
+    IndexSet open_;  // corners that may be ears: all but those that were none, with the neighbours that they have now
     std::vector<std::uint32_t> blocker_;  // the corner that was in its triangle when last looked at, or kNoCorner
     ReflexGrid grid_;
     std::uint32_t looks_ = 0;

@@ -169,7 +169,7 @@ void FineBlocks::sort_listed() {
     listed_ = 0;
 }
 
-/// Adds those large triangles that no other tile listed before.
+/// Adds the large triangles of a tile, this one or one around it, but for those that were added already.
 void FineBlocks::add_large_of(std::size_t tile) {
     for (const auto& list : {bins_.large_in(tile), bins_.thin_large_in(tile)}) {
         for (const std::uint32_t i : list) {

@@ -93,7 +93,7 @@ class FineBlocks {
     std::uint32_t listed_instance_ = 0;
     std::vector<std::vector<std::uint32_t>> candidates_;  // per block
     std::vector<std::vector<CrossedTriangle>> triangles_;
-    std::vector<bool> large_known_;  // of all large triangles: whether it was listed for this tile
+    std::vector<bool> large_known_;  // of each large triangle: whether it was added already
     std::vector<HidingInBlock> found_;
     std::vector<std::uint32_t> others_;
     std::vector<glm::ivec2> places_;  // of those with candidates

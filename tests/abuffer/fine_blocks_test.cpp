@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "abuffer/edges/occluder.h"
 #include "tests/support/drawing.h"
@@ -72,7 +73,7 @@ Cover cover_of(const ScreenSurfaces& screen, SurfaceId s) {
 
 /// Every triangle in front of a candidate is in its block's list, once, seen or not.
 TEST(FineBlocks, HaveAllThatMayHideTheirCandidates) {
-    std::size_t hiding = 0, thin_ones = 0;
+    std::size_t hiding = 0, thin_ones = 0, large_beside_borders = 0;
     for (std::uint64_t seed = 0; seed < 24; ++seed) {
         Random random(seed);
         const Scene scene = scene_of({random_triangles(random, 300), random_triangles(random, 50)});
@@ -84,6 +85,11 @@ TEST(FineBlocks, HaveAllThatMayHideTheirCandidates) {
         const TriangleBins bins(screen, frame.crop, per_pixel, best_kernels(), 1, tile_samples, kKeepsThin);
         FineBlocks blocks(screen, bins, best_kernels(), per_pixel);
         const SampleBlocks grid(per_pixel);
+        std::set<std::uint32_t> large_ones;
+        for (std::uint32_t i = 0; i < bins.large_count(); ++i)
+            large_ones.insert(screen.number_of(bins.large(i).surface));
+        // What is beside a border may lie in the tiles around.
+        const bool has_borders = seed % 4 >= 2;
         for (std::size_t tile = 0; tile < bins.tile_count(); ++tile) {
             const PixelRect rect = bins.tile(tile);
             std::vector<FineCandidate> candidates(12);
@@ -97,6 +103,7 @@ TEST(FineBlocks, HaveAllThatMayHideTheirCandidates) {
                                        corner + size - 1.0);  // blocks are half open
                 c.line.nearness_from = random.real(-0.1, 0.3);
                 c.line.nearness_to = c.line.nearness_from + random.real(-0.01, 0.01);
+                if (has_borders) c.line.classes = LineClass::border;
                 c.part.begin = 0;
                 c.part.end = 1;
             }
@@ -120,7 +127,11 @@ TEST(FineBlocks, HaveAllThatMayHideTheirCandidates) {
                     const std::vector<CrossedTriangle>& listed = blocks.triangles(block_of[i]);
                     const auto count = std::count_if(listed.begin(), listed.end(),
                                                      [n](const CrossedTriangle& t) { return t.number == n; });
-                    ASSERT_EQ(count, 1) << "seed " << seed << " tile " << tile << " triangle " << n;
+                    ASSERT_GE(count, 1) << "seed " << seed << " tile " << tile << " triangle " << n;
+                    if (!has_borders || large_ones.count(n) > 0) {
+                        ASSERT_EQ(count, 1) << "seed " << seed << " tile " << tile << " triangle " << n;
+                        large_beside_borders += has_borders ? 1 : 0;
+                    }
                     ++hiding;
                     const double pitch = 256.0 / per_pixel;
                     const glm::dvec2 low = glm::ceil(cover.box.low / pitch - 0.5),
@@ -132,6 +143,7 @@ TEST(FineBlocks, HaveAllThatMayHideTheirCandidates) {
     }
     EXPECT_GT(hiding, 1000u);
     EXPECT_GT(thin_ones, 100u);
+    EXPECT_GT(large_beside_borders, 100u);
 }
 
 }  // namespace
