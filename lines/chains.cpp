@@ -88,8 +88,7 @@ class ChainsOfLines {
     std::uint64_t node(std::uint32_t end) const { return lines_[end / 2].nodes[end % 2]; }
     /// The class that the line has in every view, if it has one.
     LineClassSet lasting_class(std::uint32_t end) const {
-        constexpr unsigned kSilhouette = LineClassSet(LineClass::silhouette).bits;
-        const auto first = LineClassSet::from_bits(lines_[end / 2].classes.bits & ~kSilhouette).first();
+        const auto first = lines_[end / 2].classes.without(kClassesOfAView).first();
         return first ? LineClassSet(*first) : LineClassSet();
     }
 

@@ -43,6 +43,8 @@ struct LineClassSet {
         return set;
     }
     constexpr bool has(LineClass c) const { return (bits >> static_cast<int>(c) & 1) != 0; }
+    constexpr bool has_any_of(LineClassSet b) const { return (bits & b.bits) != 0; }
+    constexpr LineClassSet without(LineClassSet b) const { return from_bits(bits & ~unsigned{b.bits}); }
     constexpr bool empty() const { return bits == 0; }
     friend constexpr LineClassSet operator|(LineClassSet a, LineClassSet b) { return from_bits(a.bits | b.bits); }
     friend constexpr LineClassSet operator&(LineClassSet a, LineClassSet b) { return from_bits(a.bits & b.bits); }
@@ -61,6 +63,11 @@ constexpr LineClassSet operator|(LineClass a, LineClass b) { return LineClassSet
 
 constexpr LineClassSet kDefaultLineClasses = LineClassSet(LineClass::silhouette) | LineClass::border |
                                              LineClass::crease | LineClass::intersection | LineClass::object;
+
+/// The classes of lines where a surface ends on the screen, before what is behind it.
+constexpr LineClassSet kSurfaceEnds = LineClassSet(LineClass::silhouette) | LineClass::border;
+/// The classes that a line has in some views only: one that has no other is no feature.
+constexpr LineClassSet kClassesOfAView = LineClass::silhouette;
 
 /// The class with this name, if there is one.
 std::optional<LineClass> line_class_named(std::string_view name);

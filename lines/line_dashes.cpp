@@ -7,7 +7,9 @@
 
 namespace burin {
 
-bool is_feature(const WholeLine& line) { return !(line.classes == LineClassSet(LineClass::silhouette)); }
+bool is_feature(const WholeLine& line) {
+    return line.classes.empty() || !line.classes.without(kClassesOfAView).empty();
+}
 
 std::vector<WholeLine> features_of(std::span<const WholeLine> lines) {
     std::vector<WholeLine> features;

@@ -279,7 +279,7 @@ class Decider {
                 return end_of_surface(1 - i, gap[i], true);
             }
         }
-        decision.classes = LineClass::intersection | (contact & (LineClass::object | LineClass::material));
+        decision.classes = LineClass::intersection | (contact & kClassesBesideIntersection);
         decision.reason = LineReason::passes_through;
         const double total = std::abs(gap[0]) + std::abs(gap[1]);
         if (std::isfinite(total) && total > 0) decision.fraction = crossing_near(std::abs(gap[0]) / total);

@@ -10,6 +10,9 @@
 
 namespace burin {
 
+/// The classes that a contact gives a line, too, where the two surfaces pass through each other.
+constexpr LineClassSet kClassesBesideIntersection = LineClass::object | LineClass::material;
+
 /// What is visible at a position on the screen.
 struct VisiblePoint {
     glm::dvec2 pixel{0.0};

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "base/parallel.h"
+#include "lines/line_decision.h"
 #include "mesh/vectors.h"
 #include "view/rounded_copies.h"
 
@@ -55,7 +56,7 @@ IntersectionLines::IntersectionLines(const Frame& frame, const ScreenSurfaces& s
       high_(to_subpixels(glm::dvec2(region.x1, region.y1))) {}
 
 bool IntersectionLines::are_wanted(const LineClassSet& classes) {
-    return !(classes & (LineClass::intersection | LineClassSet(LineClass::object) | LineClass::material)).empty();
+    return classes.has_any_of(LineClass::intersection | kClassesBesideIntersection);
 }
 
 bool IntersectionLines::is_before(const WholeLine& a, const WholeLine& b) {
@@ -159,7 +160,7 @@ void IntersectionLines::add(const Occluder& a, const Occluder& b, std::vector<Wh
     const glm::dvec2 middle = to_pixels(0.5 * (line.from + line.to));
     const LineClassSet contact = contact_classes(frame_.surfaces, sa, sb, middle, frame_.criteria);
     const LineClassSet classes =
-        (LineClass::intersection | (contact & (LineClass::object | LineClass::material))) & frame_.criteria.classes;
+        (LineClass::intersection | (contact & kClassesBesideIntersection)) & frame_.criteria.classes;
     if (classes.empty() || run_along(frame_.surfaces, sa, sb, middle)) return;
     line.classes = classes;
     line.drawn_as = *classes.first();

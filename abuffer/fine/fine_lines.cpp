@@ -216,7 +216,7 @@ class FineLines::BlockClipper {
         const WholeLine& line = candidate.line;
         const bool may_be_contact = line.classes.has(LineClass::border) && !line.is_wire;
         if (may_be_contact || line.opacity < 255 || line.classes.empty()) return false;
-        const bool occludes = line.classes.has(LineClass::silhouette) || line.classes.has(LineClass::border);
+        const bool occludes = line.classes.has_any_of(kSurfaceEnds);
         return drawn_.cover(line, candidate.part.begin, candidate.part.end,
                             {*line.classes.first(), occludes, is_front_on_left(candidate)},
                             level_slack(screen_.surfaces(), line.nearness_at(candidate.part.begin), kCertainPx));
@@ -271,7 +271,7 @@ class FineLines::BlockClipper {
     void add(const FineCandidate& candidate, double begin, double end, std::vector<LinePiece>& pieces) {
         const WholeLine& line = candidate.line;
         LineClassSet classes = line.classes;
-        bool occludes = classes.has(LineClass::silhouette) || classes.has(LineClass::border);
+        bool occludes = classes.has_any_of(kSurfaceEnds);
         if (classes.has(LineClass::border) && !line.is_wire) {
             if (const auto contact = contact_behind(candidate, 0.5 * (begin + end))) {
                 classes = (classes & LineClass::mark) | (*contact & criteria_.classes);

@@ -28,8 +28,7 @@ LineTile::LineTile(const Frame& frame, const ScreenSurfaces& screen, const Trian
       samples_(visible.samples()),
       kernels_(kernels),
       outline_classes_(LineClassSet(LineClass::silhouette) & frame.criteria.classes),
-      keeps_undrawn_(!frame.criteria.classes.empty() && !(frame.criteria.classes.has(LineClass::silhouette) &&
-                                                          frame.criteria.classes.has(LineClass::border))),
+      keeps_undrawn_(!frame.criteria.classes.empty() && !kSurfaceEnds.without(frame.criteria.classes).empty()),
       fast_(screen, frame.criteria),
       mesh_walks_(new MeshWalks),
       found_outlines_(new WalkOutlines),
