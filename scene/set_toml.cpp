@@ -12,18 +12,17 @@
 namespace burin {
 namespace {
 
-constexpr std::string_view kLaterClasses[] = {"suggestive", "ridge", "valley", "light", "shadow"};
-
 LineClassSet read_set_classes(TomlReader& t) {
     if (t.node("classes") == nullptr) t.fail("needs classes = [\"silhouette\", ...]: only these are looked for");
     const std::vector<std::string> names = *t.texts("classes");
     if (names.empty()) t.fail("classes", "must name at least one line class");
+    const auto later = classes_of_later_versions();
     std::vector<std::string> known(kLineClassNames.begin(), kLineClassNames.end());
     LineClassSet classes;
     for (const std::string& name : names) {
         if (const auto line_class = line_class_named(name)) {
             classes |= *line_class;
-        } else if (std::find(std::begin(kLaterClasses), std::end(kLaterClasses), name) != std::end(kLaterClasses)) {
+        } else if (std::find(later.begin(), later.end(), name) != later.end()) {
             t.fail("classes", "the class " + in_quotes(name) + " is not in this version");
         } else {
             t.fail("classes", "unknown line class " + in_quotes(name) + suggestion_of(name, known) + "; known are " +

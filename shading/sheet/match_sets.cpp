@@ -37,9 +37,8 @@ class GatheredColumns {
             fill_by([&](std::uint32_t i) { return static_cast<float>(*(pieces.classes[i] & asked).first()); });
         } else if (v == Variable::qi) {
             fill_by([&](std::uint32_t i) { return static_cast<float>(pieces.invisibility[i]); });
-        } else if (v >= Variable::is_mark && v <= Variable::is_polygon) {
-            const auto c = static_cast<LineClass>(static_cast<int>(v) - static_cast<int>(Variable::is_mark));
-            fill_by([&](std::uint32_t i) { return pieces.classes[i].has(c) ? 1.0f : 0.0f; });
+        } else if (const auto c = class_asked_by(v)) {
+            fill_by([&](std::uint32_t i) { return pieces.classes[i].has(*c) ? 1.0f : 0.0f; });
         } else if (const float* const column = pieces.columns.of(v, component)) {
             fill_by([&](std::uint32_t i) { return column[i]; });
         } else {

@@ -114,9 +114,36 @@ constexpr bool is_in_order() {
 }
 static_assert(is_in_order());
 
+constexpr bool has_a_row_for_each_class() {
+    for (int c = 0; c < kLineClassCount; ++c) {
+        const auto line_class = static_cast<LineClass>(c);
+        const std::string_view name = kTable[static_cast<std::size_t>(is_class(line_class))].name;
+        if (name.substr(0, 3) != "is_" || name.substr(3) != name_of(line_class)) return false;
+    }
+    return true;
+}
+static_assert(has_a_row_for_each_class(), "each class has a variable is_NAME, in the same order");
+
+constexpr auto kLaterClasses = std::to_array<std::string_view>({"suggestive", "ridge", "valley", "light", "shadow"});
+
 constexpr auto kLater =
     std::to_array<std::string_view>({"k1", "k2", "valley", "ridge", "suggestive", "light", "shadow", "is_suggestive",
                                      "is_ridge", "is_valley", "is_light", "is_shadow"});
+
+constexpr bool is_later_class(std::string_view name) {
+    return std::find(kLaterClasses.begin(), kLaterClasses.end(), name) != kLaterClasses.end();
+}
+/// Whether what is there already is none of these. A class and a variable may have one name.
+constexpr bool is_none_there() {
+    for (const std::string_view name : kLineClassNames) {
+        if (is_later_class(name) || std::find(kLater.begin(), kLater.end(), name) != kLater.end()) return false;
+    }
+    return std::none_of(kLater.begin(), kLater.end(), [](std::string_view name) {
+        return !is_later_class(name) &&
+               std::any_of(kTable.begin(), kTable.end(), [name](const VariableRow& row) { return row.name == name; });
+    });
+}
+static_assert(is_none_there(), "what is there is no name of a later version");
 
 }  // namespace
 
@@ -129,6 +156,7 @@ std::optional<Variable> variable_named(std::string_view name) {
 }
 
 std::span<const std::string_view> names_of_later_versions() { return kLater; }
+std::span<const std::string_view> classes_of_later_versions() { return kLaterClasses; }
 
 void VariableSet::add(Variable v) {
     for (std::size_t k = 0; k < component_count(row_of(v).type); ++k) add(v, k);

@@ -78,10 +78,14 @@ enum class Variable : std::uint8_t {
     height_px,
 };
 constexpr std::size_t kVariableCount = static_cast<std::size_t>(Variable::height_px) + 1;
-static_assert(static_cast<int>(Variable::is_polygon) - static_cast<int>(Variable::is_mark) + 1 == kLineClassCount);
 
 constexpr Variable is_class(LineClass c) {
     return static_cast<Variable>(static_cast<int>(Variable::is_mark) + static_cast<int>(c));
+}
+/// The class that a variable asks for, if it is one that is_class() returns.
+constexpr std::optional<LineClass> class_asked_by(Variable v) {
+    const int c = static_cast<int>(v) - static_cast<int>(Variable::is_mark);
+    return c >= 0 && c < kLineClassCount ? std::optional(static_cast<LineClass>(c)) : std::nullopt;
 }
 
 /// Where a variable's values come from, from what is known anyway to what costs most.
@@ -115,6 +119,8 @@ std::optional<Variable> variable_named(std::string_view name);
 constexpr std::size_t component_count(ValueType type) { return type == ValueType::number ? 1 : 3; }
 /// Names of variables and classes that later versions know.
 std::span<const std::string_view> names_of_later_versions();
+/// Those of classes alone.
+std::span<const std::string_view> classes_of_later_versions();
 
 /// Some components of some variables.
 class VariableSet {
