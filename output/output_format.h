@@ -13,7 +13,19 @@ namespace burin {
 enum class OutputFormat : std::uint8_t { exr, png, tiff, svg, pdf, dxf };
 
 /// Whether files of a format have paths instead of pixels.
-constexpr bool is_vector(OutputFormat format) { return format >= OutputFormat::svg; }
+constexpr bool is_vector(OutputFormat format) {
+    switch (format) {
+        case OutputFormat::exr:
+        case OutputFormat::png:
+        case OutputFormat::tiff:
+            return false;
+        case OutputFormat::svg:
+        case OutputFormat::pdf:
+        case OutputFormat::dxf:
+            return true;
+    }
+    return false;
+}
 
 /// A format with its number of bits per value, as the library names it.
 struct NamedFormat {
