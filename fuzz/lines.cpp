@@ -20,18 +20,22 @@ namespace {
 
 constexpr int kMostPixels = 4096;  // of a picture that is drawn
 
+std::string all_classes() {
+    std::string list;
+    for (const std::string_view name : burin::kLineClassNames)
+        list += (list.empty() ? "\"" : ", \"") + std::string(name) + "\"";
+    return "classes = [" + list + "]\n";
+}
+
 /// Plain lines, and lines that all kinds of variables decide: the second needs more than many files have.
-constexpr const char* kSheets[] = {R"toml(
-[[set]]
-name = "all"
-classes = ["silhouette", "border", "crease", "intersection", "object", "material", "mark", "polygon"]
+const std::string kSheets[] = {"[[set]]\nname = \"all\"\n" + all_classes() + R"toml(
 style = "ink"
 [style.ink]
 width = "=1 + 0.1 * depth"
 dash = [3, 2]
 halo = 2
 )toml",
-                                   R"toml(
+                               R"toml(
 [[set]]
 name = "all"
 classes = ["border", "silhouette"]
@@ -47,7 +51,7 @@ copies = 2
 wobble = { amplitude = 1, wavelength = 8 }
 )toml"};
 
-void draw(const burin::FoundLines& lines, const char* text) {
+void draw(const burin::FoundLines& lines, const std::string& text) {
     burin::Scene scene;
     scene.picture.width = lines.width_px;
     scene.picture.height = lines.height_px;
@@ -86,7 +90,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const bool is_small = file.lines.width_px <= kMostPixels && file.lines.height_px <= kMostPixels &&
                               file.lines.width_px * file.lines.height_px <= kMostPixels;
         if (!is_small) return 0;
-        for (const char* const sheet : kSheets) draw(file.lines, sheet);
+        for (const std::string& sheet : kSheets) draw(file.lines, sheet);
     } catch (const burin::InputError&) {
     }
     return 0;

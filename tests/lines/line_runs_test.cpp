@@ -17,8 +17,13 @@ namespace {
 
 using namespace test;
 
-const std::string kAllClasses =
-    R"("mark", "border", "silhouette", "intersection", "object", "material", "crease", "polygon")";
+std::string all_classes() {
+    std::string list;
+    for (const std::string_view name : kLineClassNames)
+        list += (list.empty() ? "\"" : ", \"") + std::string(name) + "\"";
+    return list;
+}
+const std::string kAllClasses = all_classes();
 /// Sets that look for all lines, as runs with ends, hidden ones as well.
 const std::string kAll = sheet_of(kAllClasses, "width = \"=1 + t\"", "qi = [0, 255]");
 const std::string kVisible = sheet_of(kAllClasses, "width = \"=1 + t\"");

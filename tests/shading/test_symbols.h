@@ -13,8 +13,8 @@
 
 namespace burin::test {
 
-/// All rates and types, three objects of which the second side may be the background, eight classes, two groups of one
-/// name, a parameter, two lets, and ramps.
+/// All rates and types, three objects of which the second side may be the background, all line classes, two groups of
+/// one name, a parameter, two lets, and ramps.
 const ExpressionSymbols& test_symbols();
 
 /// The loops for each set of instructions that this processor has.
