@@ -48,10 +48,12 @@ std::vector<std::vector<float>> results_of(const burin::ExpressionProgram& progr
 
 void check_style(const burin::CompiledStyle& style) {
     const auto ink = results_of(style.ink, burin::kInkColumnCount);
-    for (const float width : ink[0]) require(width >= 0 && width <= 4096);
-    for (const float opacity : ink[1]) require(opacity >= 0 && opacity <= 1);
-    for (const float offset : ink[2]) require(std::abs(offset) <= 4096);
-    for (std::size_t k = 3; k < ink.size(); ++k) {
+    static_assert(burin::kInkValueCount == 4, "each of them has a range here");
+    const auto column_of = [&ink](burin::InkValue value) { return ink[burin::column_of(value)]; };
+    for (const float width : column_of(burin::InkValue::width)) require(width >= 0 && width <= 4096);
+    for (const float opacity : column_of(burin::InkValue::opacity)) require(opacity >= 0 && opacity <= 1);
+    for (const float offset : column_of(burin::InkValue::offset)) require(std::abs(offset) <= 4096);
+    for (std::size_t k = burin::column_of(burin::InkValue::color); k < ink.size(); ++k) {
         for (const float part : ink[k]) require(part >= 0 && part <= 65504);
     }
     for (const std::vector<float>& column : results_of(style.chain, burin::kChainValueCount)) {
@@ -63,7 +65,7 @@ void check_match(const burin::CompiledSheet& sheet) {
     std::array<burin::LineClassSet, kColumn.size()> classes;
     std::array<std::uint8_t, kColumn.size()> invisibility{};
     for (std::size_t i = 0; i < kColumn.size(); ++i) {
-        classes[i] = burin::LineClassSet::from_bits(static_cast<unsigned>(1u << i % 8 | i));
+        classes[i] = burin::LineClassSet::from_bits(static_cast<unsigned>(1u << i % burin::kLineClassCount | i));
         invisibility[i] = static_cast<std::uint8_t>(i * i * 3);
     }
     burin::MatchInput input{kColumn.size(), classes, invisibility, {}};

@@ -244,6 +244,7 @@ class StrokeExplainer {
         std::vector<InkValues> ink;
         values.evaluate({&sample, 1}, {&chain, 1}, ink);
         to.ink = ink.front();
+        static_assert(kInkValueCount == 4, "each of them has a source");
         to.sources = {source_of(style.width), source_of(style.opacity), source_of(style.offset),
                       source_of(style.color)};
         if (style.shader) to.shader = style.shader->text;

@@ -116,6 +116,7 @@ std::string text_of(std::size_t rank, const ExplainedStroke& stroke) {
             number(stroke.length_px) + " px\n";
     text += "    covers " + number(stroke.covers) + ", shows " + number(stroke.shows);
     const InkValues& ink = stroke.ink;
+    static_assert(kInkValueCount == 4, "each of them has a line");
     text += "\n    width " + number(static_cast<double>(ink.width_px)) + " px" + equals(stroke, InkValue::width);
     text += "\n    opacity " + number(static_cast<double>(ink.opacity)) + equals(stroke, InkValue::opacity);
     text += "\n    color " + hex_of(ink.color) + equals(stroke, InkValue::color);
@@ -177,6 +178,7 @@ void write_stroke(JsonWriter& json, const ExplainedStroke& stroke) {
     json.key("chain").value(stroke.chain).key("copy").value(stroke.copy);
     json.key("s").value(stroke.s_px).key("length").value(stroke.length_px);
     json.key("covers").value(stroke.covers).key("shows").value(stroke.shows);
+    static_assert(kInkValueCount == 4, "each of them has a key");
     write_number(json, "width", stroke.ink.width_px, stroke, InkValue::width);
     write_number(json, "opacity", stroke.ink.opacity, stroke, InkValue::opacity);
     write_number(json, "offset", stroke.ink.offset_px, stroke, InkValue::offset);

@@ -45,9 +45,7 @@ void InkSegment::cut(glm::dvec2 place, glm::dvec2 outward) {
     }
 }
 
-bool InkSegment::is_constant() const {
-    return from_->width_px == to_->width_px && from_->opacity == to_->opacity && from_->color == to_->color;
-}
+bool InkSegment::is_constant() const { return has_one_ink(*from_, *to_); }
 
 float InkSegment::share_nearest(glm::dvec2 place) const {
     return static_cast<float>(std::clamp(glm::dot(place - from_->place, along_) * per_square_, 0.0, 1.0));

@@ -27,6 +27,7 @@ InkPoint point_at(std::span<const InkPoint> points, HaloPlace place) {
     if (place.share >= 1) return to;
     const auto share = static_cast<float>(place.share);
     InkPoint p = from;
+    static_assert(sizeof(InkPoint) == 48, "each number of it is mixed here");
     p.place = glm::mix(from.place, to.place, place.share);
     // What is equal at both ends stays as it is, to the bit.
     p.nearness += (to.nearness - from.nearness) * share;

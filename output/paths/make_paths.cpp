@@ -48,6 +48,7 @@ bool is_one_group(const VectorGroup& a, const VectorGroup& b) {
 
 /// Whether colour or opacity change along a stroke.
 bool varies(std::span<const InkPoint> points) {
+    static_assert(sizeof(InkPoint) == 48, "the ink of it, but for its width, is compared here");
     return std::any_of(points.begin(), points.end(), [&](const InkPoint& p) {
         return p.opacity != points.front().opacity || p.color != points.front().color;
     });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@ constexpr double kMergedGapPx = 0.5, kClosedPx = 1.0 / 16;
 constexpr float kSameInk = 1.0f / 32;
 
 bool are_alike(const InkPoint& a, const InkPoint& b) {
+    static_assert(sizeof(InkPoint) == 48, "the ink of it is compared here");
     if (std::abs(a.opacity - b.opacity) > kSameInk) return false;
     for (int k = 0; k < 3; ++k) {
         if (std::abs(a.color[k] - b.color[k]) > kSameInk) return false;
@@ -24,9 +26,13 @@ bool are_alike(const InkPoint& a, const InkPoint& b) {
 
 bool goes_on(const InkedLines& lines, std::size_t i) {
     const InkStroke &a = lines.strokes[i], &b = lines.strokes[i + 1];
-    if (a.chain != b.chain || a.order != b.order || a.caps != b.caps || a.blend != b.blend || a.side != b.side ||
-        a.is_behind != b.is_behind || a.is_closed || b.is_closed)
-        return false;
+    const auto look = [](const InkStroke& stroke) {
+        // All fields have a name here, so that a new one is thought of. Halos are cut already.
+        const auto& [first, count, order, chain, caps, blend, side, is_closed, is_constant, is_behind, halo, depth] =
+            stroke;
+        return std::tuple(order, chain, caps, blend, side, is_behind);
+    };
+    if (a.is_closed || b.is_closed || look(a) != look(b)) return false;
     const StrokeOrigin &x = lines.origins[i], &y = lines.origins[i + 1];
     if (x.object != y.object || x.invisibility != y.invisibility || !x.dash_px.empty() || !y.dash_px.empty())
         return false;

@@ -1,7 +1,6 @@
 #include "shading/ink/ink_lines.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -167,9 +166,8 @@ class StrokeMaker {
 
     static bool is_constant(std::span<const PathPoint> path) {
         const InkPoint& first = path.front().ink;
-        return std::all_of(path.begin(), path.end(), [&first](const PathPoint& p) {
-            return p.ink.width_px == first.width_px && p.ink.opacity == first.opacity && p.ink.color == first.color;
-        });
+        return std::all_of(path.begin(), path.end(),
+                           [&first](const PathPoint& p) { return has_one_ink(p.ink, first); });
     }
 
     void add_origin(std::span<const PathPoint> path) {
@@ -270,45 +268,22 @@ void add_ink_along(std::span<const Inked> parts, std::span<const std::uint32_t> 
 
 void add_notes_on_numbers(const CompiledSheet& sheet, std::span<const LineChunk> chunks, std::span<const Inked> parts,
                           std::vector<std::string>& notes) {
-    constexpr std::array<std::string_view, NotNumbersOfStyle::kCount> kNames = {"width",
-                                                                                "opacity",
-                                                                                "offset",
-                                                                                "color",
-                                                                                "strength",
-                                                                                "taper.start",
-                                                                                "taper.end",
-                                                                                "dash_phase",
-                                                                                "overshoot",
-                                                                                "wobble.amplitude",
-                                                                                "wobble.wavelength",
-                                                                                "halo",
-                                                                                "halo_depth",
-                                                                                "halo_depth",
-                                                                                "min_length",
-                                                                                "min_length",
-                                                                                "dash",
-                                                                                "dash",
-                                                                                "dash",
-                                                                                "dash",
-                                                                                "dash",
-                                                                                "dash",
-                                                                                "dash",
-                                                                                "dash"};
     for (std::size_t style = 0; style < sheet.styles().size(); ++style) {
         NotNumbersOfStyle sum;
         for (std::size_t i = 0; i < chunks.size(); ++i) {
             if (sheet.sets()[chunks[i].set].style != style) continue;
             for (const NotNumbersOfStyle& own : parts[i].not_numbers) {
-                for (std::size_t k = 0; k < kNames.size(); ++k) {
+                for (std::size_t k = 0; k < NotNumbersOfStyle::kCount; ++k) {
                     if (sum.counts[k] == 0) sum.places[k] = own.places[k];
                     sum.counts[k] += own.counts[k];
                 }
             }
         }
         std::string_view noted;
-        for (std::size_t k = 0; k < kNames.size(); ++k) {
-            if (sum.counts[k] == 0 || kNames[k] == noted) continue;  // a list of lengths is one value
-            noted = kNames[k];
+        for (std::size_t k = 0; k < NotNumbersOfStyle::kCount; ++k) {
+            const std::string_view key = NotNumbersOfStyle::key_of(k);
+            if (sum.counts[k] == 0 || key == noted) continue;  // a list of lengths is one value
+            noted = key;
             notes.push_back("style " + sheet.styles()[style].name + ": " + std::string(noted) + " is not a number at " +
                             std::to_string(sum.counts[k]) +
                             (k < NotNumbersOfStyle::kFirstOfChain ? " samples" : " lines") + ", first at pixel " +

@@ -31,6 +31,12 @@ struct InkPoint {
     static constexpr std::uint32_t kNoBoundary = ~0u;
 };
 
+/// Whether two points have one width, opacity and colour.
+inline bool has_one_ink(const InkPoint& a, const InkPoint& b) {
+    static_assert(sizeof(InkPoint) == 48, "what a stroke of constant ink has once is compared here");
+    return a.width_px == b.width_px && a.opacity == b.opacity && a.color == b.color;
+}
+
 /// Where a stroke lies among the others of a pixel. What is less lies above what is greater.
 struct InkOrder {
     std::int32_t below = 0;  ///< minus the style's priority

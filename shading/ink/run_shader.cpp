@@ -24,8 +24,12 @@ void in_batches(std::size_t count, const Work& work) {
 std::array<NotNumbers, kInkValueCount> run_shader(const CompiledStyle& style, const VariableColumns& variables,
                                                   std::size_t count, std::span<float* const> ink) {
     in_batches(count, [&](std::size_t first, std::size_t size) {
-        const auto part = [&](std::size_t column) { return std::span(ink[column] + first, size); };
-        StrokeInk out{part(0), part(2), part(1), part(3), part(4), part(5)};
+        const auto part = [&](InkValue value, std::size_t component = 0) {
+            return std::span(ink[column_of(value) + component] + first, size);
+        };
+        static_assert(kInkValueCount == 4, "each of them is a span of StrokeInk");
+        StrokeInk out{part(InkValue::width),    part(InkValue::offset),   part(InkValue::opacity),
+                      part(InkValue::color, 0), part(InkValue::color, 1), part(InkValue::color, 2)};
         style.shader->shade(StrokeSamples(variables, first, size, style.name), out);
     });
     std::array<NotNumbers, kInkValueCount> found;

@@ -22,7 +22,9 @@ struct Node {
 /// How large a linear value looks, about as sRGB encodes it.
 float encoded(float linear) { return std::sqrt(std::max(linear, 0.0f)); }
 
+/// Whether a value lies between two others, as well as one sees.
 bool is_straight(const InkValues& a, const InkValues& b, double share, const InkValues& value) {
+    static_assert(sizeof(InkValues) == 6 * sizeof(float), "each number of them has a tolerance here");
     const auto s = static_cast<float>(share);
     const auto mixed = [s](float x, float y) { return x + (y - x) * s; };
     const float width = mixed(a.width_px, b.width_px);
@@ -33,10 +35,6 @@ bool is_straight(const InkValues& a, const InkValues& b, double share, const Ink
         if (std::abs(encoded(value.color[k]) - encoded(mixed(a.color[k], b.color[k]))) > 1.0f / 128) return false;
     }
     return true;
-}
-
-bool are_equal(const InkValues& a, const InkValues& b) {
-    return a.width_px == b.width_px && a.opacity == b.opacity && a.color == b.color && a.offset_px == b.offset_px;
 }
 
 /// Whether two depths differ by less than a small part of a pixel's width: a chain may go on at another depth.
@@ -166,7 +164,7 @@ std::vector<SampledStroke> sample_strokes(const LineColumns& lines, std::span<co
     while (halve(lines, chains, values, nodes)) {
     }
 
-    const bool is_moved = values.style().has_offset || values.style().has_wobble;
+    const bool is_moved = values.style().moves_lines();
     const bool may_move = values.may_move();
     const Across across(lines.runs());
     std::vector<SampledStroke> strokes;
@@ -193,7 +191,7 @@ std::vector<SampledStroke> sample_strokes(const LineColumns& lines, std::span<co
         if (!path.empty()) point.at_px = std::max(point.at_px, path.back().at_px);
         // Where two pieces meet and nothing jumps, one point is enough.
         if (!path.empty() && node.sample.share == 0 && path.back().ink.place == point.ink.place &&
-            are_equal(nodes[i - 1].values, node.values) &&
+            nodes[i - 1].values == node.values &&
             are_as_near(lines.lines().projection, path.back().ink.nearness, point.ink.nearness)) {
             path.back() = point;
         } else {

@@ -9,6 +9,7 @@ namespace {
 
 PathPoint between(const PathPoint& a, const PathPoint& b, double share) {
     PathPoint p = a;
+    static_assert(sizeof(InkPoint) == 48, "each number of it is mixed here");
     const auto mixed = [share](float from, float to) {
         return static_cast<float>(glm::mix(static_cast<double>(from), static_cast<double>(to), share));
     };

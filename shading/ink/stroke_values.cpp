@@ -78,8 +78,8 @@ StrokeValues::StrokeValues(const LineColumns& lines, const CompiledStyle& style,
       ink_inputs_(inputs_of(style.ink)),
       chain_inputs_(inputs_of(style.chain)) {
     varies_ = style.has_taper || style.has_wobble;
-    for (const InkValue value : {InkValue::width, InkValue::opacity, InkValue::offset, InkValue::color})
-        varies_ = varies_ || style.rate_of(value) == ValueRate::sample;
+    for (std::size_t k = 0; k < kInkValueCount; ++k)
+        varies_ = varies_ || style.rate_of(static_cast<InkValue>(k)) == ValueRate::sample;
     if (style.shader) ink_inputs_ |= style.shader->needs();
     if (test != nullptr) ink_inputs_ |= test->needs();
     if (style.shader || test != nullptr) varies_ = varies_ || any_varies(ink_inputs_);
@@ -155,26 +155,31 @@ void StrokeValues::evaluate(std::span<const LineSample> samples, std::span<const
     if (test_ != nullptr) {
         strengths_.resize(samples.size());
         note(NotNumbersOfStyle::kStrength, run_test(*test_, style_, columns_.columns(), strengths_), samples);
-        for (std::size_t i = 0; i < samples.size(); ++i) results_[1][i] *= strengths_[i];
+        for (std::size_t i = 0; i < samples.size(); ++i) results_[column_of(InkValue::opacity)][i] *= strengths_[i];
     }
     const LineRuns& runs = lines_.runs();
     values.resize(samples.size());
+    static_assert(kInkValueCount == 4, "each of them is taken from its columns here");
+    const float* const width = results_[column_of(InkValue::width)].data();
+    const float* const opacity = results_[column_of(InkValue::opacity)].data();
+    const float* const offset = results_[column_of(InkValue::offset)].data();
+    const std::vector<float>* const color = &results_[column_of(InkValue::color)];
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const LineRun& run = runs.runs[samples[i].run];
         const LinePiece& piece = runs.pieces[samples[i].piece].piece;
         const double at = lines_.at_of(samples[i]), begin = runs.pieces[run.first].at_from_px,
                      end = runs.pieces[run.first + run.count - 1].at_to_px;
         InkValues& value = values[i];
-        value.width_px = results_[0][i] * taper(run, *chains[i], at - begin, end - at);
-        value.opacity = results_[1][i] * (static_cast<float>(piece.seen_opacity()) / 255.0f);
+        value.width_px = width[i] * taper(run, *chains[i], at - begin, end - at);
+        value.opacity = opacity[i] * (static_cast<float>(piece.seen_opacity()) / 255.0f);
         if (style_.has_min_length) {
             value.opacity *=
                 faded_in(end - begin, static_cast<double>(value_of(*chains[i], ChainValue::min_length_low)),
                          static_cast<double>(value_of(*chains[i], ChainValue::min_length_high)));
         }
         // Away from the surface that ends there, else to the right.
-        value.offset_px = piece.occludes && !piece.front_on_left ? -results_[2][i] : results_[2][i];
-        value.color = {results_[3][i], results_[4][i], results_[5][i]};
+        value.offset_px = piece.occludes && !piece.front_on_left ? -offset[i] : offset[i];
+        value.color = {color[0][i], color[1][i], color[2][i]};
     }
     if (style_.has_wobble) add_wobble(samples, chains, values);
 }

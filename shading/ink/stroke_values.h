@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "shading/ink/line_columns.h"
@@ -23,17 +24,64 @@ struct InkValues {
     float width_px = 0, opacity = 0;
     glm::vec3 color{0.0f};
     float offset_px = 0;  ///< across the line, to the right of its way
+    bool operator==(const InkValues&) const = default;
 };
 
 /// What of a style is the same along a chain, in the order of ChainValue.
 using ChainValues = std::array<float, kChainValueCount>;
 inline float value_of(const ChainValues& values, ChainValue v) { return values[static_cast<std::size_t>(v)]; }
 
+constexpr std::string_view key_of(InkValue value) {
+    switch (value) {
+        case InkValue::width:
+            return "width";
+        case InkValue::opacity:
+            return "opacity";
+        case InkValue::offset:
+            return "offset";
+        case InkValue::color:
+            return "color";
+    }
+    return {};
+}
+constexpr std::string_view key_of(ChainValue value) {
+    switch (value) {
+        case ChainValue::taper_start:
+            return "taper.start";
+        case ChainValue::taper_end:
+            return "taper.end";
+        case ChainValue::dash_phase:
+            return "dash_phase";
+        case ChainValue::overshoot:
+            return "overshoot";
+        case ChainValue::wobble_amplitude:
+            return "wobble.amplitude";
+        case ChainValue::wobble_wavelength:
+            return "wobble.wavelength";
+        case ChainValue::halo:
+            return "halo";
+        case ChainValue::halo_depth_near:
+        case ChainValue::halo_depth_far:
+            return "halo_depth";
+        case ChainValue::min_length_low:
+        case ChainValue::min_length_high:
+            return "min_length";
+        case ChainValue::dash:
+            break;
+    }
+    return "dash";
+}
+
 /// How often a value was not a number, and where first.
 struct NotNumbersOfStyle {
     static constexpr std::size_t kStrength = kInkValueCount;     ///< of line tests, behind the values
     static constexpr std::size_t kFirstOfChain = kStrength + 1;  ///< then by ChainValue, for each stretch
     static constexpr std::size_t kCount = kFirstOfChain + kChainValueCount;
+    /// The key of a style, or of one of its tables, whose value it is.
+    static constexpr std::string_view key_of(std::size_t value) {
+        if (value < kInkValueCount) return burin::key_of(static_cast<InkValue>(value));
+        return value == kStrength ? "strength" : burin::key_of(static_cast<ChainValue>(value - kFirstOfChain));
+    }
     std::array<std::size_t, kCount> counts{};  ///< by InkValue, for each sample
     std::array<glm::dvec2, kCount> places{};   ///< in pixels
 };
@@ -53,7 +101,7 @@ class StrokeValues {
     /// Whether anything changes along a piece, so that there must be samples between its ends.
     bool varies() const { return varies_; }
     /// Whether lines may be drawn beside their places.
-    bool may_move() const { return style_.has_offset || style_.has_wobble || style_.shader; }
+    bool may_move() const { return style_.moves_lines() || style_.shader; }
     const CompiledStyle& style() const { return style_; }
     const NotNumbersOfStyle& not_numbers() const { return not_numbers_; }
 

@@ -179,6 +179,7 @@ CompiledStyle compile_style(const SheetStyle& style, const ExpressionSymbols& sy
     constexpr Range kWavelength{0.25f, kMostLengthPx};
     constexpr Range kDash{kLeastDashPx, kMostLengthPx}, kPhase{-kMostLengthPx, kMostLengthPx}, kHalo{0, kMostHaloPx};
     ValueCompiler ink(symbols, context, ValueRate::sample, steps_left);
+    static_assert(kInkValueCount == 4, "they are added in the order of InkValue");
     ink.add(style.width, kWidth);
     ink.add(style.opacity, kShare);
     ink.add(style.offset, kWay);
@@ -188,6 +189,7 @@ CompiledStyle compile_style(const SheetStyle& style, const ExpressionSymbols& sy
     steps_left -= std::min(steps_left, ink.steps());
 
     ValueCompiler chain(symbols, context, ValueRate::chain, steps_left);
+    static_assert(kChainValueCount == 11 + kMostDashLengths, "they are added in the order of ChainValue");
     chain.add(taper.start, kLength);
     chain.add(taper.end, kLength);
     chain.add(style.dash_phase, kPhase);

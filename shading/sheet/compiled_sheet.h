@@ -33,10 +33,12 @@ struct SheetContext {
     const LineShaders* shaders = nullptr;  ///< that the sheet may name; nullptr: the program has none
 };
 
-/// Results of CompiledStyle::ink, in this order; `color` has three components.
+/// Results of CompiledStyle::ink, in this order; `color`, the last one, has three components.
 enum class InkValue : std::uint8_t { width, opacity, offset, color };
-constexpr std::size_t kInkValueCount = 4;
-constexpr std::size_t kInkColumnCount = 6;  ///< width, opacity, offset, red, green, blue
+constexpr std::size_t kInkValueCount = static_cast<std::size_t>(InkValue::color) + 1;
+constexpr std::size_t kInkColumnCount = kInkValueCount + 2;
+/// Where the columns of a value begin.
+constexpr std::size_t column_of(InkValue value) { return static_cast<std::size_t>(value); }
 
 /// Results of CompiledStyle::chain, in this order, all of them numbers, lengths in pixels.
 enum class ChainValue : std::uint8_t {
@@ -84,6 +86,8 @@ struct CompiledStyle {
         return !shader && is_constant(InkValue::width) && is_constant(InkValue::opacity) &&
                is_constant(InkValue::color);
     }
+    /// Whether all its lines are drawn beside their places; a shader may move some.
+    bool moves_lines() const { return has_offset || has_wobble; }
     VariableSet variables;                ///< of both programs and the shader, and what carrying out the style reads
     std::vector<std::string> attributes;  ///< that the ink reads
     bool needs_chains = false;

@@ -2,6 +2,7 @@
 
 #include "shading/expression/error.h"
 #include "shading/expression/lexer.h"
+#include "shading/sheet/compiled_sheet.h"
 
 namespace burin {
 
@@ -29,6 +30,7 @@ void add_attributes_named_in(const StyleValue& value, AttributeWish& wish) {
 AttributeWish attributes_named_in(const StyleSheet& sheet) {
     AttributeWish wish;
     for (const SheetLet& let : sheet.lets) add_attributes_named_in(let.text.text, wish);
+    static_assert(kInkValueCount == 4, "each of them is looked at here");
     for (const SheetStyle& style : sheet.styles) {
         for (const StyleValue* const value : {&style.width, &style.opacity, &style.offset, &style.color})
             add_attributes_named_in(*value, wish);

@@ -6,9 +6,11 @@
 #include <iterator>
 #include <regex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/sheet_toml.h"
+#include "shading/ink/stroke_values.h"
 #include "shading/sheet/compiled_sheet.h"
 
 namespace burin {
@@ -66,6 +68,29 @@ TEST(SheetPage, KeysOfStylesAreKnownAndTakeTheirDefaults) {
         EXPECT_EQ(error_of(kSet + kStyle + in_backticks(row.first).front() + " = " + value), "") << row.first;
     }
     EXPECT_EQ(count, 23u);
+}
+
+/// Whether a text names a key, or the table that it is in: "taper" of "taper.start".
+bool names(const std::string& text, std::string_view key) {
+    return text.find("`" + std::string(key.substr(0, key.find('.'))) + "`") != std::string::npos;
+}
+
+std::string line_with(const std::string& page, const std::string& words) {
+    std::ifstream file(std::string(BURIN_SOURCE_FOLDER) + "/docs/shading/" + page);
+    for (std::string line; std::getline(file, line);) {
+        if (line.find(words) != std::string::npos) return line;
+    }
+    return {};
+}
+
+TEST(SheetPage, SentencesOnValuesOfChainsNameAll) {
+    for (const std::string& line : {line_with("sheets.md", "which are the same along a line"),
+                                    line_with("variables.md", "change along a chain")}) {
+        for (std::size_t k = 0; k < kChainValueCount; ++k) {
+            const std::string_view key = key_of(static_cast<ChainValue>(k));
+            EXPECT_TRUE(names(line, key)) << key << ": " << line;
+        }
+    }
 }
 
 TEST(SheetPage, KeysOfSetsAndSheetsAreKnown) {
