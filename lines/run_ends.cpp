@@ -238,9 +238,11 @@ class RunEnds {
     void look_around(const OpenEnd& end) {
         const LineRun& run = runs_.runs[end.run];
         const LineId line = piece_at(run, end.which).piece.line;
-        auto n = std::lower_bound(broken_lines_.begin(), broken_lines_.end(), line,
-                                  [](const Neighbour& a, LineId b) { return a.piece->line < b; });
-        for (; n != broken_lines_.end() && n->piece->line == line; ++n) meet(end, *n);
+        if (run.is_hidden) {
+            auto n = std::lower_bound(broken_lines_.begin(), broken_lines_.end(), line,
+                                      [](const Neighbour& a, LineId b) { return a.piece->line < b; });
+            for (; n != broken_lines_.end() && n->piece->line == line; ++n) meet(end, *n);
+        }
         // What is farther away than the gaps that are known changes nothing.
         const auto reach_px = [&run, &end](float gap_px) {
             return run.ends[end.which] == RunEnd::occluded ? 0 : kMeetsPx + kRoundedGapPx + static_cast<double>(gap_px);
@@ -298,6 +300,8 @@ class RunEnds {
         const std::size_t own = neighbour.run, index = neighbour.index;
         LineRun& run = runs_.runs[end.run];
         if (run.ends[end.which] == RunEnd::occluded) return;
+        // Whether hidden lines are looked for must not change visible ones.
+        if (other.is_hidden() && !run.is_hidden) return;
         const RunPiece& last = piece_at(run, end.which);
         const glm::dvec2 p = end.place, way = other.to - other.from;
         const double square = glm::dot(way, way);
@@ -349,12 +353,14 @@ class RunEnds {
 }  // namespace
 
 void find_run_ends(LineRuns& runs, std::span<const LinePiece> boundaries, const Projection& projection,
-                   PixelRect picture, int threads) {
+                   PixelRect picture, int threads, bool only_hidden) {
     constexpr std::size_t kRunsAtOnce = 64;
     RunEnds ends(runs, boundaries, projection, picture);
     const std::size_t count = runs.runs.size();
     parallel_for((count + kRunsAtOnce - 1) / kRunsAtOnce, threads, [&](std::size_t i, int) {
-        for (std::size_t r = i * kRunsAtOnce; r < std::min(count, (i + 1) * kRunsAtOnce); ++r) ends.find_ends(r);
+        for (std::size_t r = i * kRunsAtOnce; r < std::min(count, (i + 1) * kRunsAtOnce); ++r) {
+            if (runs.runs[r].is_hidden || !only_hidden) ends.find_ends(r);
+        }
     });
 }
 

@@ -78,7 +78,8 @@ TEST_P(RandomLines, HaveTheGapsToTheNearestOthers) {
         for (const std::size_t which : {0u, 1u}) {
             double nearest = 1e9;
             for (std::size_t k = 0; k < lines.runs.pieces.size(); ++k) {
-                if (k != i)
+                const bool counts = lines.runs.runs[i].is_hidden || !lines.runs.runs[k].is_hidden;
+                if (k != i && counts)
                     nearest =
                         std::min(nearest, distance_to(lines.runs.pieces[k].piece, which == 0 ? own.from : own.to));
             }
