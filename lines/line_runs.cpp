@@ -215,21 +215,24 @@ void add_others(std::vector<const LinePiece*> pieces, bool is_hidden, const Piec
 }  // namespace
 
 LineRuns runs_of(const LineDrawing::Lists& visible, const LineDrawing::Lists& behind,
-                 std::span<const WholeLine> features, const SurfaceSet& surfaces, const PieceLinking& linking) {
+                 std::span<const WholeLine> features, const SurfaceSet& surfaces, const RunRules& of_seen,
+                 const RunRules& of_hidden) {
     LineRuns runs;
     FeatureRuns of_features(features, surfaces);
     std::vector<const LinePiece*> seen, hidden;
     for (const LineDrawing::Lists* lists : {&visible, &behind}) {
         for (const std::span<const LinePiece> list : *lists) {
             for (const LinePiece& piece : list) {
-                if (!piece.is_drawn || piece.from == piece.to || of_features.take(piece)) continue;
-                (piece.is_hidden() ? hidden : seen).push_back(&piece);
+                if (!piece.is_drawn || piece.from == piece.to) continue;
+                const bool is_hidden = piece.is_hidden();
+                if ((is_hidden ? of_hidden : of_seen).along_features && of_features.take(piece)) continue;
+                (is_hidden ? hidden : seen).push_back(&piece);
             }
         }
     }
     of_features.add_to(runs);
-    add_others(std::move(seen), false, linking, runs);
-    add_others(std::move(hidden), true, linking, runs);
+    add_others(std::move(seen), false, of_seen.linking, runs);
+    add_others(std::move(hidden), true, of_hidden.linking, runs);
     return runs;
 }
 

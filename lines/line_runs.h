@@ -71,12 +71,19 @@ struct LineRuns {
     }
 };
 
+/// How runs are made of visible lines, or of hidden ones.
+struct RunRules {
+    bool along_features = true;  ///< else edges are chained as all other lines are
+    PieceLinking linking;        ///< of lines that do not stand along features
+};
+
 /// Makes runs of the pieces of a picture that are drawn, each in one of them; left out are pieces shorter than a pixel
 /// beside longer ones of the same chain. `features`: edges that are lines in every view, as wholes;
 /// runs of those stand along the chains of these (chains_of()), seen or not. All other lines are chained piece by piece
 /// (PieceChains), and stand along what is seen of them. Where a chain is a loop that is seen in part, what is beyond
-/// its beginning stands beyond its length. `linking`: of these other lines.
+/// its beginning stands beyond its length.
 LineRuns runs_of(const LineDrawing::Lists& visible, const LineDrawing::Lists& behind,
-                 std::span<const WholeLine> features, const SurfaceSet& surfaces, const PieceLinking& linking = {});
+                 std::span<const WholeLine> features, const SurfaceSet& surfaces, const RunRules& of_seen = {},
+                 const RunRules& of_hidden = {});
 
 }  // namespace burin

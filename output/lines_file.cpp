@@ -209,6 +209,7 @@ std::map<std::string, std::string> metadata_of(const FoundLines& lines, const Ke
     data["has_normals"] = lines.has_normals ? "1" : "0";
     data["has_beyond"] = lines.has_beyond ? "1" : "0";
     data["has_chains"] = lines.has_chains ? "1" : "0";
+    if (lines.has_hidden_chains && !lines.has_chains) data["has_hidden_chains"] = "1";
     data["frame"] = text_of_frame(lines.frame);
     const auto number = [](double value) { return nlohmann::json(value).dump(); };
     data["fps"] = number(lines.fps);

@@ -174,6 +174,8 @@ void read_picture(const ArrayReader& in, const MetadataReader& data, FoundLines&
     lines.has_normals = data.integer("has_normals", 0, 1) == 1;
     lines.has_beyond = data.integer("has_beyond", 0, 1) == 1;
     lines.has_chains = data.integer("has_chains", 0, 1) == 1;
+    lines.has_hidden_chains =
+        lines.has_chains || (data.has("has_hidden_chains") && data.integer("has_hidden_chains", 0, 1) == 1);
     lines.frame = data.number("frame");
     if (!(std::abs(lines.frame) <= kLargestFrame)) in.fail("__metadata__.frame: is out of range");
     lines.fps = data.number("fps");

@@ -35,7 +35,7 @@ DrawingNeeds needs_of(const Scene& scene, const SheetNeeds& sheet) {
     needs.is_transparent = has_transparent_surfaces(scene);
     needs.whole_picture = true;
     needs.whole_picture_behind = needs.behind();
-    needs.whole_lines = scene.finds_all || scene.names_lines || sheet.chains;
+    needs.whole_lines = scene.finds_all || scene.names_lines || sheet.chains || sheet.hidden_chains;
     needs.surfaces_beyond = scene.finds_all || sheet.sides;
     needs.one_sided = sheet.one_sided;
     needs.reach_px =

@@ -12,17 +12,21 @@ void find_sides_and_runs(const LineDrawing& drawing, const SurfaceSet& surfaces,
                          const FoundLinesNeeds& needs, std::span<const MeshCurvature* const> curvatures, int threads,
                          FoundLines& lines) {
     const LineDrawing::Lists visible = drawing.visible();
-    lines.runs = runs_of(visible, drawing.behind(), features_of(drawing.whole_lines()), surfaces,
-                         {needs.apart_px, needs.chains});
+    // What hidden lines need is not done to visible ones, which are the same whether hidden ones are drawn or not.
+    const bool has_any_chains = needs.chains || needs.hidden_chains;
+    lines.runs =
+        runs_of(visible, drawing.behind(), features_of(drawing.whole_lines()), surfaces,
+                {needs.chains, {needs.apart_px, needs.chains}}, {has_any_chains, {needs.apart_px, has_any_chains}});
     for (const std::span<const LinePiece> list : visible) {
         for (const LinePiece& piece : list) {
             if (!piece.is_drawn && piece.occludes) lines.boundaries.push_back(piece);
         }
     }
-    if (needs.chains)
+    if (has_any_chains)
         find_run_ends(lines.runs, lines.boundaries, surfaces.projection, {0, 0, lines.width_px, lines.height_px},
-                      threads);
+                      threads, !needs.chains);
     lines.has_chains = needs.chains;
+    lines.has_hidden_chains = has_any_chains;
     lines.has_normals = needs.normals;
     lines.sides.resize(lines.runs.pieces.size());
     lines.surface = needs.surface;

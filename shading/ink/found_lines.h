@@ -38,7 +38,9 @@ struct FoundLines {
     LineClassSet classes;               ///< that were looked for
     int most_invisibility = 0;          ///< that was looked for
     bool tells_invisibility = false;    ///< else a hidden piece has only some surface in front of it
-    bool has_normals = false, has_beyond = false, has_chains = false;
+    bool has_normals = false, has_beyond = false;
+    bool has_chains = false;                         ///< of visible lines, and of hidden ones if these were looked for
+    bool has_hidden_chains = false;                  ///< of hidden lines
     std::array<double, 2> crease_angle_deg{40, 40};  ///< from where to where creases faded in
     bool has_smooth_contours = false;
     PixelFilter filter = PixelFilter::box;
@@ -61,7 +63,9 @@ struct FoundLines {
 
 /// What is to be known of lines.
 struct FoundLinesNeeds {
-    bool normals = false, chains = false;
+    bool normals = false;
+    bool chains = false;         ///< of visible lines and of hidden ones
+    bool hidden_chains = false;  ///< of hidden lines
     SurfaceNeeds surface;
     double apart_px = 0;  ///< PieceLinking::apart_px
 };

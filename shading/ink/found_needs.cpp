@@ -25,6 +25,7 @@ FoundLinesNeeds found_needs_of(const SheetNeeds& sheet) {
     needs.normals =
         std::any_of(std::begin(kOfNormals), std::end(kOfNormals), [&](Variable v) { return sheet.variables.has(v); });
     needs.chains = sheet.chains;
+    needs.hidden_chains = sheet.hidden_chains;
     needs.surface = sheet.surface;
     return needs;
 }
@@ -44,7 +45,7 @@ std::string missing_for(const StyleSheet& style, const SheetNeeds& sheet, const 
     add(needs.normals && !lines.has_normals, "normals");
     add(sheet.variables.has(Variable::lit) && (!lines.casters || style.light != lines.light),
         "what casts shadows (lit), which a file of lines never has");
-    add(needs.chains && !lines.has_chains, "chains");
+    add((needs.chains && !lines.has_chains) || (needs.hidden_chains && !lines.has_hidden_chains), "chains");
     add(needs.surface.kr && !lines.surface.kr, "curvature (kr)");
     add(needs.surface.uv && !lines.surface.uv, "texture coordinates (u, v)");
     add(needs.surface.color && !lines.surface.color, "colours of vertices (Cv)");

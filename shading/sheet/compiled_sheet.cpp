@@ -83,6 +83,9 @@ std::vector<std::string> notes_on_empty_groups(const StyleSheet& sheet, const Sh
     return notes;
 }
 
+/// Hidden lines have strokes to both sides, and all else that is done to visible ones only where a set takes some.
+bool takes_visible(const CompiledSet& set) { return set.qi[0] == 0; }
+
 bool is_told_anyway(const std::array<int, 2>& qi) { return qi[0] <= 1 && (qi[1] == 0 || qi[1] == 255); }
 
 }  // namespace
@@ -111,12 +114,14 @@ CompiledSheet::CompiledSheet(const StyleSheet& sheet, const SheetContext& contex
             matched.add(Variable::material2);
         }
         select_variables_ |= matched;
-        needs_.variables |= matched;
-        needs_.variables |= style.variables;
-        if (set.test) needs_.variables |= set.test->needs();
         for (const std::string& name : style.attributes) needs_.surface.add_attribute(name);
-        if (style.needs_chains) needs_.chains = true;
-        if (style.settings.side != StrokeSide::both) needs_.one_sided = true;
+        VariableSet read = matched;
+        read |= style.variables;
+        if (set.test) read |= set.test->needs();
+        needs_.variables |= read;
+        if (style.needs_chains || read.has_tier(VariableTier::chains))
+            (takes_visible(set) ? needs_.chains : needs_.hidden_chains) = true;
+        if (style.settings.side != StrokeSide::both && takes_visible(set)) needs_.one_sided = true;
         needs_.most_reach_px = std::max(needs_.most_reach_px, style.most_reach_px);
     }
     if (needs_.variables.has(Variable::qi)) needs_.tells_invisibility = true;
@@ -125,7 +130,7 @@ CompiledSheet::CompiledSheet(const StyleSheet& sheet, const SheetContext& contex
     needs_.surface.uv = needs_.variables.has(Variable::u) || needs_.variables.has(Variable::v);
     needs_.surface.color = needs_.variables.has(Variable::Cv);
     needs_.sides = needs_.variables.has_tier(VariableTier::sides) || needs_.variables.has_tier(VariableTier::shadows);
-    if (needs_.variables.has_tier(VariableTier::chains)) needs_.chains = true;
+    needs_.hidden_chains = needs_.hidden_chains || (needs_.chains && needs_.most_invisibility > 0);
 }
 
 std::vector<std::string> CompiledSheet::notes_on_names() const {

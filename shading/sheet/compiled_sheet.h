@@ -104,6 +104,7 @@ struct SheetNeeds {
     SurfaceNeeds surface;             ///< curvature (tier 3), and values of the file (tier 5)
     bool sides = false;               ///< something of the surfaces beside and behind a line (tier 1)
     bool chains = false;              ///< chains (tier 2, or strokes are moved or cut)
+    bool hidden_chains = false;       ///< the same of hidden lines: sets of visible ones may do without
     bool one_sided = false;           ///< strokes are drawn on one side of their lines
     float most_reach_px = 0;
 };

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/stream_store.h"
+#include "shading/ink/found_needs.h"
 #include "tests/support/random.h"
 #include "tests/support/shaded_scene.h"
 #include "tests/support/temporary_folder.h"
@@ -88,6 +89,33 @@ TEST(LinesFile, IsReadBackToTheBit) {
     EXPECT_EQ(bytes_of(read.lines, read.surface), bytes);
     read.lines.light = lines.light;
     expect_equal(drawn(scene, lines), drawn(scene, read.lines));
+}
+
+/// Chains that only hidden lines have are kept as such: a sheet that needs those of visible ones is refused.
+TEST(LinesFile, KnowsWhichLinesHaveChains) {
+    const auto sheet = [](const std::string& visible, const std::string& hidden) {
+        return "[[set]]\nname = \"seen\"\nclasses = [\"crease\"]\nstyle = \"ink\"\n"
+               "[[set]]\nname = \"behind\"\nclasses = [\"crease\"]\nqi = [1, 255]\nstyle = \"dots\"\n"
+               "[style.ink]\n" +
+               visible + "\n[style.dots]\n" + hidden + "\n";
+    };
+    const std::string kDash = "dash = [3, 2]";
+    const TemporaryFolder folder;
+    for (const bool of_visible : {false, true}) {
+        for (const bool of_hidden : {false, true}) {
+            const ShadedScene scene(kScene, sheet(of_visible ? kDash : "", of_hidden ? kDash : ""));
+            const LinesFile read = read_lines_file(folder.write("a.lines", bytes_of(scene.found())));
+            EXPECT_EQ(read.lines.has_chains, of_visible);
+            EXPECT_EQ(read.lines.has_hidden_chains, of_visible || of_hidden);
+            expect_equal(drawn(scene, scene.found()), drawn(scene, read.lines));
+            for (const bool visible_too : {false, true}) {
+                const ShadedScene other(kScene, sheet(visible_too ? kDash : "", kDash));
+                const Frame frame = other.frame(other.whole());
+                const bool has_all = of_visible || (of_hidden && !visible_too);
+                EXPECT_EQ(missing_for(*frame.scene->sheet, frame.sheet->needs(), read.lines), has_all ? "" : "chains");
+            }
+        }
+    }
 }
 
 TEST(LinesFile, HasTheLayoutOfSafetensors) {

@@ -250,6 +250,14 @@ TEST(CompiledSheet, SaysWhatItNeeds) {
     for (const char* key : {"dash = [1, 2]", "taper = { start = 3 }", "overshoot = 2", "offset = 1", "copies = 2",
                             "smooth = 3", "min_length = 2", "wobble = {}", "caps = \"butt\""})
         EXPECT_TRUE(compiled(key).needs().chains) << key;
+    // What hidden lines need is not asked of visible ones.
+    for (const char* const qi : {"", "qi = [0, 1]", "qi = 1", "qi = [2, 255]"}) {
+        const SheetNeeds needs = compiled("dash = [1, 2]\nside = \"inside\"", qi).needs();
+        const bool takes_visible = std::string_view(qi).empty() || qi[6] == '0';
+        EXPECT_EQ(needs.chains, takes_visible) << qi;
+        EXPECT_EQ(needs.one_sided, takes_visible) << qi;
+        EXPECT_EQ(needs.hidden_chains, needs.most_invisibility > 0) << qi;
+    }
     EXPECT_TRUE(compiled("wobble = {}").needs().variables.has(Variable::PO));
     EXPECT_FALSE(compiled("width = 2", "qi = [1, 255]").needs().tells_invisibility);
     EXPECT_EQ(compiled("width = 2", "qi = [1, 255]").needs().most_invisibility, 255);
