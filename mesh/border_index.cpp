@@ -42,6 +42,17 @@ struct TouchedBox {
     bool operator()(const glm::dvec3& other_low, const glm::dvec3& other_high) const {
         return glm::all(glm::lessThanEqual(other_low, high)) && glm::all(glm::lessThanEqual(low, other_high));
     }
+    FourBoxes::AreNear operator()(const FourBoxes& boxes) const {
+        FourBoxes::AreNear near{true, true, true, true};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double least = low[static_cast<int>(axis)], most = high[static_cast<int>(axis)];
+            for (std::size_t k = 0; k < FourBoxes::kCount; ++k) {
+                near[k] = near[k] & (static_cast<double>(boxes.low[axis][k]) <= most) &
+                          (least <= static_cast<double>(boxes.high[axis][k]));
+            }
+        }
+        return near;
+    }
 };
 
 /// Whether two segments come as near to each other as `margin`, but for rounding.
@@ -371,6 +382,34 @@ bool BorderIndex::find_near(HalfEdge half_edge, std::size_t most, SeamCandidates
         directed_.visit_near(a, b, margin, count);
     } else {
         whole_.visit_leaves(NearSegment{a, b, margin}, count);
+    }
+    if (seen.count() > most) candidates.segments_.clear();
+    return seen.count() <= most;
+}
+
+bool BorderIndex::find_along(HalfEdge half_edge, std::size_t most, SeamCandidates& candidates) const {
+    candidates.segments_.clear();
+    const Segment* const own = find(half_edge);
+    if (own == nullptr) return true;
+    const glm::dvec3 along = direction_of(*own);
+    const double length = glm::length(along);
+    candidates.reach_ = reach_part_ * length;
+    const double margin = candidates.reach_ * (1 + 1e-3);  // a trifle more, for rounding
+    const glm::dvec3 &a = own->a, &b = own->b;
+    most = std::min(most, kMostNear);
+    NumberSet seen;
+    const auto add = [&](std::uint32_t i) {
+        const Segment& other = segments_[i];
+        if (!may_be_partners(*own, along, length, other) || !are_near(a, b, other.a, other.b, margin) || !seen.add(i))
+            return true;
+        if (seen.count() > most) return false;
+        candidates.segments_.push_back(other);
+        return true;
+    };
+    if (has_crowds()) {
+        directed_.visit_along(along / length, a, b, margin, add);
+    } else {
+        whole_.visit_leaves(NearSegment(a, b, margin), add);
     }
     if (seen.count() > most) candidates.segments_.clear();
     return seen.count() <= most;

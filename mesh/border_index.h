@@ -85,6 +85,9 @@ class BorderIndex {
     /// than `most` segments there, of any direction; `most` is at most kMostNear.
     static constexpr std::size_t kMostNear = 256;
     bool find_near(HalfEdge half_edge, std::size_t most, SeamCandidates& candidates) const;
+    /// The same, but returns false only if there are more than `most` that may be partners: in a heap most that come
+    /// near an edge cross it.
+    bool find_along(HalfEdge half_edge, std::size_t most, SeamCandidates& candidates) const;
 
     /// Adds the numbers of the segments whose boxes may touch a box, in no order that means anything.
     void find_in_box(const glm::dvec3& low, const glm::dvec3& high, std::vector<std::uint32_t>& found) const;

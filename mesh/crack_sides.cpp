@@ -72,7 +72,7 @@ glm::dvec3 CrackSides::inward(std::uint32_t segment) const {
 }
 
 double CrackSides::length_of_directions() const {
-    constexpr double kPart = 1.0 / 20;
+    constexpr double kPart = 1.0 / 100;
     glm::dvec3 low = segments_.front().a, high = low;
     for (const BorderIndex::Segment& s : segments_) {
         low = glm::min(low, glm::min(s.a, s.b));

@@ -41,6 +41,19 @@ class DirectedSegments {
         }
     }
 
+    /// The same, of segments along `direction`, whose length is 1, and of others.
+    template <typename Visit>
+    void visit_along(const glm::dvec3& direction, const glm::dvec3& a, const glm::dvec3& b, double margin,
+                     const Visit& visit) const {
+        bool goes_on = true;
+        for (const Class& c : classes_) {
+            if (!c.may_run_along(direction)) continue;
+            c.tree.visit_leaves(NearSegment(c.turn * a, c.turn * b, margin),
+                                [&](std::uint32_t i) { return goes_on = visit(i); });
+            if (!goes_on) return;
+        }
+    }
+
     /// Calls visit(number) for all segments along `direction`, whose length is 1, that may be as near to a point as
     /// `reach`, which visit() may lower meanwhile; and for others.
     template <typename Visit>

@@ -166,6 +166,7 @@ std::vector<Crack> find_cracks(const CrackSides& sides, int threads) {
 }  // namespace
 
 std::optional<Mesh> join_borders(const Mesh& mesh, const CrackReach& reach, int threads) {
+    if (!mesh.borders.has_partners()) return std::nullopt;
     const std::vector<Crack> cracks = find_cracks(CrackSides(mesh, reach), threads);
     if (cracks.empty()) return std::nullopt;
     std::vector<VertexClusters::Pair> pairs;

@@ -40,47 +40,74 @@ SegmentTree::SegmentTree(std::span<const SegmentPiece> pieces, Cut cut) {
     places.reserve(pieces.size());
     for (std::uint32_t i = 0; i < pieces.size(); ++i) places.push_back({pieces[i].low + pieces[i].high, i});
     segments_.resize(pieces.size());
-    nodes_.reserve(pieces.size());
+    nodes_.reserve(pieces.size() / 2);
     nodes_.emplace_back();
     build(pieces, cut == Cut::across_thin_boxes ? one_per_width(pieces) : glm::vec3(1.0f), 0, 0, places);
 }
 
-void SegmentTree::build(std::span<const SegmentPiece> pieces, const glm::vec3& weight, std::uint32_t node,
-                        std::uint32_t first, std::span<Place> places) {
-    const auto count = static_cast<std::uint32_t>(places.size());
-    if (count > 0xFFF) throw_if_interrupted();
-    Node box;
-    if (count > kLeafSize) {
-        glm::vec3 low = places.front().middle, high = low;  // of middles: long pieces say nothing about where to cut
-        for (const Place& place : places) {
-            low = glm::min(low, place.middle);
-            high = glm::max(high, place.middle);
-        }
-        const glm::vec3 size = weight * (high - low);
-        const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
-        const std::uint32_t half = count / 2;
-        std::nth_element(places.begin(), places.begin() + half, places.end(),
-                         [&](const Place& p, const Place& q) { return p.middle[axis] < q.middle[axis]; });
-        box.first = static_cast<std::uint32_t>(nodes_.size());
-        nodes_.resize(nodes_.size() + 2);
-        build(pieces, weight, box.first, first, places.first(half));
-        build(pieces, weight, box.first + 1, first + half, places.subspan(half));
-        const Node &left = nodes_[box.first], &right = nodes_[box.first + 1];
-        box.low = glm::min(left.low, right.low);
-        box.high = glm::max(left.high, right.high);
-    } else {
-        box.first = first;
-        box.count = count;
-        box.low = glm::vec3(std::numeric_limits<float>::infinity());
-        box.high = -box.low;
-        for (const Place& place : places) {
-            const SegmentPiece& piece = pieces[place.piece];
-            box.low = glm::min(box.low, piece.low);
-            box.high = glm::max(box.high, piece.high);
-            segments_[first++] = piece.segment;
-        }
+std::uint32_t SegmentTree::cut(const glm::vec3& weight, std::span<Place> places) {
+    glm::vec3 low = places.front().middle, high = low;  // of middles: long pieces say nothing about where to cut
+    for (const Place& place : places) {
+        low = glm::min(low, place.middle);
+        high = glm::max(high, place.middle);
     }
-    nodes_[node] = box;
+    const glm::vec3 size = weight * (high - low);
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+    const auto half = static_cast<std::uint32_t>(places.size() / 2);
+    std::nth_element(places.begin(), places.begin() + half, places.end(),
+                     [&](const Place& p, const Place& q) { return p.middle[axis] < q.middle[axis]; });
+    return half;
+}
+
+FourBoxes::Box SegmentTree::build(std::span<const SegmentPiece> pieces, const glm::vec3& weight, std::uint32_t node,
+                                  std::uint32_t first, std::span<Place> places) {
+    if (places.size() > 0xFFF) throw_if_interrupted();
+    FourBoxes::Box all;
+    std::size_t k = 0;
+    const auto add = [&](std::uint32_t begin, std::uint32_t end) {
+        const std::span<Place> part = places.subspan(begin, end - begin);
+        FourBoxes::Box box;
+        std::uint32_t at = first + begin;
+        if (part.size() > kLeafSize) {
+            at = static_cast<std::uint32_t>(nodes_.size());
+            nodes_.emplace_back();
+            box = build(pieces, weight, at, first + begin, part);
+        } else {
+            box = add_leaf(pieces, at, part);
+            nodes_[node].piece_count[k] = static_cast<std::uint32_t>(part.size());
+        }
+        nodes_[node].first[k] = at;
+        nodes_[node].boxes.set(k++, box);
+        all.low = glm::min(all.low, box.low);
+        all.high = glm::max(all.high, box.high);
+    };
+    const auto add_halves = [&](std::uint32_t begin, std::uint32_t end) {
+        if (end - begin <= kLeafSize) return add(begin, end);
+        const std::uint32_t half = begin + cut(weight, places.subspan(begin, end - begin));
+        add(begin, half);
+        add(half, end);
+    };
+    const auto count = static_cast<std::uint32_t>(places.size());
+    if (count <= kLeafSize) {
+        add(0, count);
+        return all;
+    }
+    const std::uint32_t half = cut(weight, places);
+    add_halves(0, half);
+    add_halves(half, count);
+    return all;
+}
+
+FourBoxes::Box SegmentTree::add_leaf(std::span<const SegmentPiece> pieces, std::uint32_t first,
+                                     std::span<const Place> places) {
+    FourBoxes::Box box;
+    for (const Place& place : places) {
+        const SegmentPiece& piece = pieces[place.piece];
+        box.low = glm::min(box.low, piece.low);
+        box.high = glm::max(box.high, piece.high);
+        segments_[first++] = piece.segment;
+    }
+    return box;
 }
 
 }  // namespace burin

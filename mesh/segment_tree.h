@@ -1,9 +1,15 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
+
+#include "mesh/four_boxes.h"
 
 // Border segments near a place are found by a tree of boxes.
 
@@ -33,23 +39,28 @@ class SegmentTree {
     /// The segments of all pieces, those of pieces near each other mostly one after the other.
     std::span<const std::uint32_t> segments() const { return segments_; }
 
-    /// Calls visit(segment) for all pieces in boxes that may_be_near(low, high), until it says false.
+    /// Calls visit(segment) for all pieces in boxes of which may_be_near(boxes), an AreNear, says so, until it says
+    /// false.
     template <typename MayBeNear, typename Visit>
     void visit_leaves(const MayBeNear& may_be_near, const Visit& visit) const {
         if (nodes_.empty()) return;
-        std::uint32_t stack[kMostLevels];
+        std::uint32_t stack[kMostWaiting];
         int top = 0;
         stack[top++] = 0;
         while (top > 0) {
             const Node& node = nodes_[stack[--top]];
-            if (!may_be_near(node.low, node.high)) continue;
-            if (node.count == 0) {
-                stack[top++] = node.first;
-                stack[top++] = node.first + 1;
-                continue;
-            }
-            for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-                if (!visit(segments_[i])) return;
+            const FourBoxes::AreNear near = may_be_near(node.boxes);
+            for (std::size_t k = 0; k < FourBoxes::kCount; ++k) {
+                if (!near[k]) continue;
+                if (node.piece_count[k] == 0) {
+                    if (node.first[k] == 0) continue;
+                    stack[top++] = node.first[k];
+                    __builtin_prefetch(&nodes_[node.first[k]]);
+                    continue;
+                }
+                for (std::uint32_t i = node.first[k]; i < node.first[k] + node.piece_count[k]; ++i) {
+                    if (!visit(segments_[i])) return;
+                }
             }
         }
     }
@@ -59,47 +70,54 @@ class SegmentTree {
     template <typename Visit>
     void visit_nearest(const glm::dvec3& at, const double& reach, const Visit& visit) const {
         visit_nearest(
-            at, reach, [](const glm::vec3&, const glm::vec3&) { return true; }, visit);
+            at, reach,
+            [](const FourBoxes&) {
+                return FourBoxes::AreNear{true, true, true, true};
+            },
+            visit);
     }
-    /// Visits the nearest pieces in boxes for which may_be_near(low, high) says yes.
+    /// Visits the nearest pieces in boxes of which may_be_near(boxes) says so.
     template <typename MayBeNear, typename Visit>
     void visit_nearest(const glm::dvec3& at, const double& reach, const MayBeNear& may_be_near,
                        const Visit& visit) const {
         if (nodes_.empty()) return;
+        const DistanceToBoxes distance(at);
         struct Waiting {
-            std::uint32_t node;
             double square;  // of the distance to its box
+            std::uint32_t first, piece_count;
         };
-        Waiting stack[kMostLevels];
+        Waiting stack[kMostWaiting];
         int top = 0;
-        const auto put = [&](const Waiting& waiting) {
-            if (is_near(waiting.square, reach)) stack[top++] = waiting;
-        };
-        put({0, square_of_distance(at, nodes_[0])});
+        stack[top++] = {0, 0, 0};
         while (top > 0) {
             const Waiting next = stack[--top];
             if (!is_near(next.square, reach)) continue;
-            const Node& node = nodes_[next.node];
-            if (!may_be_near(node.low, node.high)) continue;
-            if (node.count == 0) {
-                Waiting nearer{node.first, square_of_distance(at, nodes_[node.first])};
-                Waiting farther{node.first + 1, square_of_distance(at, nodes_[node.first + 1])};
-                if (farther.square < nearer.square) std::swap(nearer, farther);
-                put(farther);
-                put(nearer);
+            if (next.piece_count > 0) {
+                for (std::uint32_t i = next.first; i < next.first + next.piece_count; ++i) visit(segments_[i]);
                 continue;
             }
-            for (std::uint32_t i = node.first; i < node.first + node.count; ++i) visit(segments_[i]);
+            const Node& node = nodes_[next.first];
+            const FourBoxes::AreNear near = may_be_near(node.boxes);
+            const std::array<double, FourBoxes::kCount> squares = distance.squares(node.boxes);
+            const int before = top;
+            for (std::size_t k = 0; k < FourBoxes::kCount; ++k) {
+                if (!near[k] || !is_near(squares[k], reach) || (node.piece_count[k] == 0 && node.first[k] == 0))
+                    continue;
+                int i = top++;  // the nearest comes last
+                for (; i > before && stack[i - 1].square < squares[k]; --i) stack[i] = stack[i - 1];
+                stack[i] = {squares[k], node.first[k], node.piece_count[k]};
+            }
         }
     }
 
   private:
-    static constexpr int kMostLevels = 64;  // halving 2^32 pieces takes 32 levels
-    /// A box around pieces: those at [first, first + count) of segments_ (a leaf), or all of its
-    /// children's, which are nodes `first` and `first + 1` (count 0).
+    /// Halving 2^32 pieces twice takes 16 levels, each of which leaves three boxes waiting.
+    static constexpr int kMostWaiting = 64;
+    /// Boxes around pieces: those at [first, first + piece_count) of segments_ (a leaf), or all of node `first` (count
+    /// 0); none if both are 0.
     struct Node {
-        glm::vec3 low{0.0f}, high{0.0f};
-        std::uint32_t first = 0, count = 0;
+        FourBoxes boxes;
+        std::array<std::uint32_t, FourBoxes::kCount> first{}, piece_count{};
     };
     struct Place {
         glm::vec3 middle;  // twice that
@@ -107,13 +125,13 @@ class SegmentTree {
     };
     /// The margin keeps rounding from hiding an equally near one.
     static bool is_near(double square, double reach) { return square <= reach * reach * (1 + 1e-9); }
-    static double square_of_distance(const glm::dvec3& p, const Node& box) {
-        const glm::dvec3 outside =
-            glm::max(glm::max(glm::dvec3(box.low) - p, p - glm::dvec3(box.high)), glm::dvec3(0.0));
-        return glm::dot(outside, outside);
-    }
-    void build(std::span<const SegmentPiece> pieces, const glm::vec3& weight, std::uint32_t node, std::uint32_t first,
-               std::span<Place> places);
+
+    /// Cuts pieces in two; returns how many are in the first half.
+    static std::uint32_t cut(const glm::vec3& weight, std::span<Place> places);
+    /// Makes a node of pieces, the first of which is the one at `first` of segments_. Returns the box around them.
+    FourBoxes::Box build(std::span<const SegmentPiece> pieces, const glm::vec3& weight, std::uint32_t node,
+                         std::uint32_t first, std::span<Place> places);
+    FourBoxes::Box add_leaf(std::span<const SegmentPiece> pieces, std::uint32_t first, std::span<const Place> places);
 
     std::vector<std::uint32_t> segments_;  // of pieces
     std::vector<Node> nodes_;

@@ -194,6 +194,7 @@ void add_rows(const Mesh& mesh, std::uint32_t triangle, const AttributeLayer& fr
 }  // namespace
 
 std::optional<Mesh> split_borders(const Mesh& mesh, const CrackReach& reach, int threads) {
+    if (!mesh.borders.has_partners()) return std::nullopt;
     std::vector<Cut> cuts = find_all_cuts(CrackSides(mesh, reach), threads);
     std::stable_sort(cuts.begin(), cuts.end(), [](const Cut& p, const Cut& q) { return p.half_edge < q.half_edge; });
     if (cuts.empty()) return std::nullopt;

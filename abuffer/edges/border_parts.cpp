@@ -13,7 +13,8 @@ namespace {
 /// Wider gaps between patches are no seams. 1 pixel.
 constexpr double kWidestCrackSubpixels = to_subpixels(kWidestCrackPx);
 /// A mesh with more than kMostBorderPairs pairs of a border and one about it has heaps of borders: there only borders
-/// that come near are told apart. Where more than kMostNear come near, the border lies in a crowd.
+/// that come near are told apart, and where borders lie over each other, only those that run along. Where more than
+/// kMostNear do, the border lies in a crowd.
 constexpr std::size_t kMostBorderPairs = std::size_t{1} << 24, kFewAbout = 256, kMostNear = 32;
 /// What runs along a border in a crowd is looked up at this many places, and at fewer in meshes of more than 2^13
 /// borders, so that all lookups of a mesh are limited.
@@ -74,8 +75,9 @@ std::vector<BorderPart> parts_of_border(const ScreenSurfaces& screen, SurfaceId 
     BorderIndex::SeamCandidates about, near;
     const std::size_t most_about =
         std::max(kMostBorderPairs / std::max(mesh.borders.segments().size(), std::size_t{1}), kFewAbout);
-    const bool is_crowd =
-        !mesh.borders.find_candidates(h, most_about, about) && !mesh.borders.find_near(h, kMostNear, about);
+    const bool is_crowd = mesh.borders.has_crowds() ? !mesh.borders.find_along(h, kMostNear, about)
+                                                    : !mesh.borders.find_candidates(h, most_about, about) &&
+                                                          !mesh.borders.find_near(h, kMostNear, about);
     if (!is_crowd && about.segments().empty()) return {{}};
     const glm::dvec3 a = mesh.local_position(start_of(mesh, h)), along = mesh.local_position(end_of(mesh, h)) - a;
     const double square = glm::dot(along, along);
@@ -98,7 +100,7 @@ std::vector<BorderPart> parts_of_border(const ScreenSurfaces& screen, SurfaceId 
     // Few of the segments about the border come near it. Where many do, each place is looked up by itself.
     constexpr std::size_t kFew = 32;
     const bool has_few = about.segments().size() <= kFew && !is_crowd;
-    const bool has_few_near = !has_few && mesh.borders.find_near(h, kFew, near);
+    const bool has_few_near = !has_few && !is_crowd && mesh.borders.find_near(h, kFew, near);
     if (has_few_near && near.segments().empty()) return {{}};
     const BorderIndex::SeamCandidates* const few = has_few ? &about : has_few_near ? &near : nullptr;
     const double shortest = kWidestCrackSubpixels / glm::distance(edge.from, edge.to);  // a crack is no part of its own

@@ -9,8 +9,8 @@
 
 namespace burin {
 
-/// BorderIndex::seam_partner() for places that are asked for one after the other along the same few edges: remembers
-/// which edges run along each of them, or in a crowd what is nearest to the last place.
+/// BorderIndex::seam_partner() for places that are asked for one after the other along the same edges: remembers which
+/// edges run along each of them, or where they are too many, what is nearest to the last place.
 class SeamMemory {
   public:
     std::optional<HalfEdge> partner(const BorderIndex& borders, HalfEdge half_edge, const glm::dvec3& at);
@@ -25,9 +25,19 @@ class SeamMemory {
         BorderIndex::SeamCandidates candidates;
         BorderIndex::Neighbourhood neighbourhood;  ///< where many run along an edge
     };
-    static std::optional<HalfEdge> partner_in_crowd(Entry& entry, const glm::dvec3& at);
+    /// In a heap a tile shows parts of thousands of edges, and most of them are in the next one, too.
+    static constexpr std::size_t kLists = std::size_t{1} << 14;
+    struct List {
+        const BorderIndex* borders = nullptr;
+        HalfEdge half_edge = 0;
+        bool is_complete = false;
+        BorderIndex::SeamCandidates candidates;
+    };
+    const BorderIndex::SeamCandidates* list_in_crowd(const BorderIndex& borders, HalfEdge half_edge);
+    static std::optional<HalfEdge> partner_near_last(Entry& entry, const glm::dvec3& at);
 
     std::vector<Entry> entries_;
+    std::vector<List> lists_;
 };
 
 }  // namespace burin

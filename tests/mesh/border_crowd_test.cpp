@@ -185,6 +185,49 @@ TEST(BorderCrowd, NearOnesAreAllThatMayBePartnersAnywhere) {
     EXPECT_GT(many, 100);
 }
 
+/// Those along an edge are counted by sampling, by which a few at the limit are missing.
+std::size_t count_along(const std::vector<Segment>& segments, const Segment& own, double reach) {
+    const glm::dvec3 along = own.b - own.a;
+    return static_cast<std::size_t>(std::count_if(segments.begin(), segments.end(), [&](const Segment& s) {
+        const glm::dvec3 way = s.b - s.a;
+        if (s.polygon == own.polygon || !(std::abs(glm::dot(along, way)) > 0.9 * glm::length(along) * glm::length(way)))
+            return false;
+        for (int step = 0; step <= 40; ++step) {
+            if (distance_to(s, glm::mix(own.a, own.b, step / 40.0)) < reach) return true;
+        }
+        return false;
+    }));
+}
+
+TEST(BorderCrowd, ThoseAlongAnEdgeAreAllThatMayBePartnersAnywhere) {
+    int few = 0, many = 0;
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+        Random random(seed);
+        const std::vector<Segment> segments = straws(random, 500, seed % 4 == 0);
+        const BorderIndex index(segments);
+        BorderIndex::SeamCandidates listed;
+        for (std::size_t i = 0; i < segments.size(); i += 5) {
+            const Segment& own = segments[i];
+            const std::size_t least = count_along(segments, own, index.reach_part() * glm::distance(own.a, own.b));
+            const std::size_t most = seed % 2 == 0 ? BorderIndex::kMostNear : 3;
+            if (!index.find_along(own.half_edge, most, listed)) {
+                ++many;
+                ASSERT_GT(2 * least, most) << "seed " << seed;
+                ASSERT_TRUE(listed.segments().empty());
+                continue;
+            }
+            ++few;
+            ASSERT_LE(least, most) << "seed " << seed;
+            for (int step = 0; step <= 20; ++step) {
+                const glm::dvec3 at = glm::mix(own.a, own.b, step / 20.0);
+                ASSERT_EQ(listed.nearest(at), index.seam_partner(own.half_edge, at)) << "seed " << seed;
+            }
+        }
+    }
+    EXPECT_GT(few, 100);
+    EXPECT_GT(many, 10);
+}
+
 /// Needles through a point: boxes around their long borders nearly all have one middle, and their short ends lie far
 /// away from it.
 std::vector<Segment> pins(Random& random, std::uint32_t count) {

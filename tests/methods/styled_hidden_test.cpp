@@ -96,8 +96,8 @@ TEST_P(StyledHidden, LinesChangeNoVisibleStroke) {
             const InkedLines lines = both.inked();
             const std::vector<SeenStroke> seen = seen_strokes(lines);
             EXPECT_LT(seen.size(), lines.strokes.size()) << "nothing is hidden";
-            std::size_t different = seen.size() > expected.size() ? seen.size() - expected.size()
-                                                                  : expected.size() - seen.size();
+            std::size_t different =
+                seen.size() > expected.size() ? seen.size() - expected.size() : expected.size() - seen.size();
             for (std::size_t i = 0; i < std::min(seen.size(), expected.size()); ++i)
                 different += seen[i] == expected[i] ? 0 : 1;
             EXPECT_EQ(different, 0u);
