@@ -361,33 +361,16 @@ bool BorderIndex::find_candidates(HalfEdge half_edge, std::size_t most, SeamCand
 }
 
 bool BorderIndex::find_near(HalfEdge half_edge, std::size_t most, SeamCandidates& candidates) const {
-    candidates.segments_.clear();
-    const Segment* const own = find(half_edge);
-    if (own == nullptr) return true;
-    const glm::dvec3 along = direction_of(*own);
-    const double length = glm::length(along);
-    candidates.reach_ = reach_part_ * length;
-    const double margin = candidates.reach_ * (1 + 1e-3);  // a trifle more, for rounding
-    const glm::dvec3 &a = own->a, &b = own->b;
-    most = std::min(most, kMostNear);
-    NumberSet seen;
-    const auto count = [&](std::uint32_t i) {
-        const Segment& other = segments_[i];
-        if (!are_near(a, b, other.a, other.b, margin) || !seen.add(i)) return true;
-        if (seen.count() > most) return false;
-        if (may_be_partners(*own, along, length, other)) candidates.segments_.push_back(other);
-        return true;
-    };
-    if (has_crowds()) {
-        directed_.visit_near(a, b, margin, count);
-    } else {
-        whole_.visit_leaves(NearSegment{a, b, margin}, count);
-    }
-    if (seen.count() > most) candidates.segments_.clear();
-    return seen.count() <= most;
+    return list_near(half_edge, most, false, candidates);
 }
 
 bool BorderIndex::find_along(HalfEdge half_edge, std::size_t most, SeamCandidates& candidates) const {
+    return list_near(half_edge, most, true, candidates);
+}
+
+/// Lists the candidates within reach of an edge; counts all segments there, or only those that may be partners.
+bool BorderIndex::list_near(HalfEdge half_edge, std::size_t most, bool counts_partners_only,
+                            SeamCandidates& candidates) const {
     candidates.segments_.clear();
     const Segment* const own = find(half_edge);
     if (own == nullptr) return true;
@@ -398,18 +381,21 @@ bool BorderIndex::find_along(HalfEdge half_edge, std::size_t most, SeamCandidate
     const glm::dvec3 &a = own->a, &b = own->b;
     most = std::min(most, kMostNear);
     NumberSet seen;
-    const auto add = [&](std::uint32_t i) {
+    const auto look_at = [&](std::uint32_t i) {
         const Segment& other = segments_[i];
-        if (!may_be_partners(*own, along, length, other) || !are_near(a, b, other.a, other.b, margin) || !seen.add(i))
-            return true;
+        const bool may_be_partner = may_be_partners(*own, along, length, other);
+        if (counts_partners_only && !may_be_partner) return true;
+        if (!are_near(a, b, other.a, other.b, margin) || !seen.add(i)) return true;
         if (seen.count() > most) return false;
-        candidates.segments_.push_back(other);
+        if (may_be_partner) candidates.segments_.push_back(other);
         return true;
     };
-    if (has_crowds()) {
-        directed_.visit_along(along / length, a, b, margin, add);
+    if (!has_crowds()) {
+        whole_.visit_leaves(NearSegment(a, b, margin), look_at);
+    } else if (counts_partners_only) {
+        directed_.visit_along(along / length, a, b, margin, look_at);
     } else {
-        whole_.visit_leaves(NearSegment(a, b, margin), add);
+        directed_.visit_near(a, b, margin, look_at);
     }
     if (seen.count() > most) candidates.segments_.clear();
     return seen.count() <= most;

@@ -101,6 +101,7 @@ class BorderIndex {
     void visit_boxes(const glm::dvec3& low, const glm::dvec3& high, const Visit& visit) const;
     bool has_several_polygons() const;
     double reach_part_in_crowd() const;
+    bool list_near(HalfEdge half_edge, std::size_t most, bool counts_partners_only, SeamCandidates& candidates) const;
     template <typename Visit>
     void visit_nearest(const glm::dvec3& direction, const glm::dvec3& at, const double& reach,
                        const Visit& visit) const;
