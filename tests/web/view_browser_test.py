@@ -19,7 +19,7 @@ import urllib.request
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 from browser import PRESS, RELEASE, Browser, at, center_of, check
-from view_page import FIRST_INK, PICTURE, SET_VALUE, STATE, Page
+from view_page import FIRST_INK, IS_WELL, PICTURE, SET_VALUE, STATE, Page
 
 SCENE = """
 [[object]]
@@ -304,8 +304,7 @@ def test_connection(page, burin, scene):
     script = browser.post("/goog/cdp/execute", cmd="Page.addScriptToEvaluateOnNewDocument", params={"source": """
         const Plain = WebSocket;
         window.sockets = [];
-        WebSocket = class extends Plain { constructor(...all) { super(...all); window.sockets.push(this); } };
-        WebSocket.OPEN = Plain.OPEN;"""})
+        WebSocket = class extends Plain { constructor(...all) { super(...all); window.sockets.push(this); } };"""})
     server, url = start(burin, scene)
     try:
         page.open(url)
@@ -325,6 +324,7 @@ def test_connection(page, burin, scene):
         browser.run("location.hash = arguments[0]", address)
         browser.wait_until(f"{PICTURE} === arguments[0]", "and the page goes on", before)
         check(browser.run("return window.sockets.length") == 2, "by the same connection")
+        test_silence(page, server)
         # As many as the server shows at once; then one more.
         browser.run("for (let i = 0; i < 15; ++i) new WebSocket(`ws://${location.host}${location.pathname}socket`)")
         browser.wait_until("window.sockets.filter(s => s.readyState === 1).length === 16", "there are 16 pages")
@@ -344,10 +344,52 @@ def test_connection(page, burin, scene):
         server.wait()
         page.drag(30, 0)
         browser.wait_until(STATE.format("gone"), "a server that is gone is said to be")
+        with socket.create_server(("127.0.0.1", int(url.split(":")[2].split("/")[0]))):
+            browser.wait_until(STATE.format("silent"), "what takes connections and never answers is said to")
+        browser.wait_until(STATE.format("gone"), "until it is gone, too")
     finally:
         if server.poll() is None:
             server.kill()
         browser.post("/goog/cdp/execute", cmd="Page.removeScriptToEvaluateOnNewDocument", params=script)
+
+
+def test_silence(page, server):
+    """A server that is there and does not answer: the page says so, and goes on when it answers again."""
+    browser = page.browser
+
+    def is_silent(what):
+        began = time.time()
+        browser.wait_until(STATE.format("silent"), what)
+        check(time.time() - began < 12, f"{what}: within a few seconds")
+
+    def goes_on(what):
+        server.send_signal(signal.SIGCONT)
+        browser.wait_until(IS_WELL, what)
+
+    before = page.picture()
+    server.send_signal(signal.SIGSTOP)
+    page.drag(40, 0)
+    is_silent("a server that hangs is said to, when something is asked of it")
+    page.screenshot(os.path.join(page.folder, "silent.png"))
+    goes_on("it answers again")
+    check(page.picture() != before, "and draws what was asked for")
+    server.send_signal(signal.SIGSTOP)
+    is_silent("a server that hangs is said to, when nothing is asked of it, too")
+    goes_on("it answers once more")
+    server.send_signal(signal.SIGSTOP)
+    browser.run("window.sockets.at(-1).close()")
+    is_silent("a server that hangs while a connection ends is said to")
+    goes_on("the page connects anew when it answers")
+    page.changes(lambda: page.drag(-40, 0), "it can be turned as before")
+    # A message that the server never gets, beside others that it answers, stands for work without an end.
+    browser.run("const s = window.sockets.at(-1); s.send = () => { delete s.send; }")
+    page.drag(20, 0)
+    browser.wait_until(STATE.format("busy"), "it is said that an answer is long due")
+    browser.run("document.querySelector('#home').click()")
+    browser.wait_until(IS_WELL, "until there is an answer")
+    browser.run("window.sockets.at(-1).close()")  # begins anew, for the lost message
+    browser.wait_until("window.sockets.at(-1).readyState === 1 && " + IS_WELL, "the page connects anew")
+    page.settle()
 
 
 def test_sizes(page):

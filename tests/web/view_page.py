@@ -20,6 +20,7 @@ FIRST_INK = """const from = document.querySelector('#picture'), box = from.getBo
   const y = Math.floor(height / 2), row = to.getImageData(0, y, width, 1).data;
   for (let x = 0; x < width; ++x) if (row[4 * x] < 128) return [box.left + x + .5, box.top + y + .5];"""
 STATE = "document.body.dataset.connection === '{}' && !document.querySelector('#state').hidden"
+IS_WELL = "document.body.dataset.connection === 'open' && document.querySelector('#state').hidden"
 SET_VALUE = "const e = document.querySelector(arguments[0]); e.value = arguments[1];" \
             "e.dispatchEvent(new Event(e.type === 'range' ? 'input' : 'change', {bubbles: true}))"
 

@@ -326,13 +326,16 @@ const whatIsSo = {
   other: "Another burin view answers here. Each prints an address of its own: use that one.",
   gone: "burin view does not answer: it has ended, or the way to it is cut. Start it again and use its new address; "
     + "if it still runs, this page goes on as soon as it answers.",
+  silent: "burin view runs, but does not answer. This page goes on as soon as it does; if it never does, start it again.",
+  busy: "burin view is still at work on what you asked for …",
 };
 
 function stateChanged(state) {
+  if (document.body.dataset.connection === state) return;
   document.body.dataset.connection = state;
   $("#state").textContent = whatIsSo[state] ?? "";
   $("#state").hidden = state === "open";
-  if (!view) $("#wait").hidden = state !== "open";
+  if (!view) $("#wait").hidden = state !== "open" && state !== "busy";
 }
 
 /** The server has begun anew for this page: it is told the look, and asked for the view. */
