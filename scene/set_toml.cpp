@@ -6,6 +6,7 @@
 
 #include "base/interrupt.h"
 #include "shading/expression/error.h"
+#include "shading/expression/glob.h"
 #include "shading/expression/unknown_word.h"
 #include "shading/sheet/variables.h"
 
@@ -129,8 +130,10 @@ std::optional<std::vector<std::string>> read_globs(TomlReader& table, std::strin
     auto globs = table.texts(key);
     if (!globs) return globs;
     if (globs->empty()) table.fail(key, "must have at least one pattern, such as \"wheel*\"");
-    if (globs->size() > kMostSheetNames)
-        table.fail(key, "has more than " + std::to_string(kMostSheetNames) + " patterns");
+    if (globs->size() > kMostPlainNames) table.fail(key, "has more than " + std::to_string(kMostPlainNames) + " names");
+    if (globs->size() > kMostGlobs && !are_plain_names(*globs))
+        table.fail(key, "has more than " + std::to_string(kMostGlobs) +
+                            " entries, which is possible for names alone, without '*', '?' and '!'");
     for (const std::string& glob : *globs) {
         if (glob.empty() || glob == "!") table.fail(key, "has an empty pattern");
         if (glob.size() > 1000) table.fail(key, "has a pattern of more than 1000 bytes");

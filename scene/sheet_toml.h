@@ -10,7 +10,7 @@
 
 namespace burin {
 
-constexpr std::size_t kMaxSheetBytes = 1 << 18;
+constexpr std::size_t kMaxSheetBytes = 1 << 23;
 
 /// Reads a style sheet (docs/shading/sheets.md). `overrides`: those of --set whose keys begin with "style.": of a
 /// parameter, of a style's key, or of any other value. Throws InputError with line and column, UsageError for an

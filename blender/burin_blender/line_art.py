@@ -15,6 +15,7 @@ class Usages:
         # By the address of an object; the first collection that says something counts.
         self.of_collections = usages_below([scene.collection])
         children = {child for collection in bpy.data.collections for child in collection.children}
+        children.update(scene.collection.children)
         elsewhere = usages_below(c for c in bpy.data.collections if c not in children)
         if elsewhere:  # objects that are in no collection of the scene come as instances
             of_scene = {address(thing) for thing in scene.collection.all_objects}

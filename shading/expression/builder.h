@@ -75,7 +75,7 @@ class ExpressionBuilder {
     TypedValue comparison(const Token& sign, const TypedValue& a, const TypedValue& b);
     TypedValue membership(const Token& group, const TypedValue& value);
     template <typename IsIn>
-    TypedValue one_of(const TypedValue& value, std::size_t patterns, const IsIn& is_in);
+    TypedValue one_of(const TypedValue& value, std::size_t comparisons, const IsIn& is_in);
     void require_rate(ValueRate rate, std::string_view name, std::size_t offset) const;
     [[noreturn]] void fail_unknown_name(const Token& token) const;
     [[noreturn]] void fail_unknown_function(const Token& token) const;

@@ -147,9 +147,9 @@ TypedValue ExpressionBuilder::ramp_named(const TypedValue& name, const TypedValu
 }
 
 template <typename IsIn>
-TypedValue ExpressionBuilder::one_of(const TypedValue& value, std::size_t patterns, const IsIn& is_in) {
+TypedValue ExpressionBuilder::one_of(const TypedValue& value, std::size_t comparisons, const IsIn& is_in) {
     const NameList& list = *value.names;
-    count_steps(list.names.size() * patterns / 128);  // scenes may have very many objects
+    count_steps(list.names.size() * comparisons / 128);  // scenes may have very many objects
     std::vector<float> table{0};
     for (std::size_t i = 0; i < list.names.size(); ++i) {
         if (!is_in(list.names[i])) {
@@ -193,8 +193,9 @@ TypedValue ExpressionBuilder::membership(const Token& group, const TypedValue& v
             other_kind = &candidate;
             continue;
         }
-        return one_of(value, candidate.patterns.size(),
-                      [&](const std::string& name) { return matches_globs(candidate.patterns, name); });
+        count_steps(candidate.patterns.size() / 128);
+        const GlobList globs(candidate.patterns);
+        return one_of(value, globs.comparisons(), [&](const std::string& name) { return globs.takes(name); });
     }
     if (other_kind != nullptr)
         fail(group.offset, "the group " + in_quotes(group.words) + " is one of kind '" + other_kind->kind + "', not '" +

@@ -1,6 +1,6 @@
 #include "shading/expression/glob.h"
 
-#include <cstddef>
+#include <algorithm>
 
 namespace burin {
 
@@ -29,6 +29,23 @@ bool matches_globs(const std::vector<std::string>& patterns, std::string_view na
         if (matches_glob(takes_away ? pattern.substr(1) : pattern, name)) is_in = !takes_away;
     }
     return is_in;
+}
+
+bool are_plain_names(const std::vector<std::string>& patterns) {
+    return std::none_of(patterns.begin(), patterns.end(), [](const std::string& pattern) {
+        return pattern.starts_with('!') || pattern.find_first_of("*?") != std::string::npos;
+    });
+}
+
+GlobList::GlobList(const std::vector<std::string>& patterns)
+    : patterns_(patterns), is_plain_(are_plain_names(patterns)) {
+    if (!is_plain_) return;
+    names_.assign(patterns.begin(), patterns.end());
+    std::sort(names_.begin(), names_.end());
+}
+
+bool GlobList::takes(std::string_view name) const {
+    return is_plain_ ? std::binary_search(names_.begin(), names_.end(), name) : matches_globs(patterns_, name);
 }
 
 }  // namespace burin

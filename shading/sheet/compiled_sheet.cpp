@@ -34,8 +34,9 @@ void check_lets(const StyleSheet& sheet, const ExpressionSymbols& symbols, std::
 
 /// For each number, 0 = background: whether globs take its name. The background has none, and is never taken.
 std::vector<bool> taken_by(const std::vector<std::string>& globs, const std::vector<std::string>& names) {
+    const GlobList list(globs);
     std::vector<bool> taken(names.size() + 1);
-    for (std::size_t i = 0; i < names.size(); ++i) taken[i + 1] = matches_globs(globs, names[i]);
+    for (std::size_t i = 0; i < names.size(); ++i) taken[i + 1] = list.takes(names[i]);
     return taken;
 }
 
@@ -74,8 +75,8 @@ std::vector<std::string> notes_on_empty_groups(const StyleSheet& sheet, const Sh
     if (sheet.file.empty()) return notes;
     for (const ExpressionGroup& group : sheet.groups) {
         const std::vector<std::string>& names = group.kind == "material" ? context.materials : context.objects;
-        if (std::any_of(names.begin(), names.end(),
-                        [&](const std::string& name) { return matches_globs(group.patterns, name); }))
+        const GlobList globs(group.patterns);
+        if (std::any_of(names.begin(), names.end(), [&](const std::string& name) { return globs.takes(name); }))
             continue;
         notes.push_back("group " + group.name + ": no " + group.kind +
                         " of the scene is in it (burin info lists them)");

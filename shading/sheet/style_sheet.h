@@ -29,6 +29,8 @@ constexpr std::size_t kMostSheetSteps = 200000;
 constexpr std::size_t kMostSheetSets = 256;
 constexpr std::size_t kMostSheetStyles = 64;
 constexpr std::size_t kMostSheetNames = 256;  ///< of parameters, groups, lets and ramps: at most this many of each
+constexpr std::size_t kMostGlobs = 256;       ///< in a list of patterns; plain names, which are looked up, may be more
+constexpr std::size_t kMostPlainNames = 100000;
 
 /// A text of a sheet, and how to find a character of it in the file.
 struct SheetText {

@@ -175,6 +175,22 @@ def collections():
     near(ink_of(["crease"], collection_negation="EXCLUSIVE", **settings), 3 * sum(lengths), 0.04)
 
 
+def large_collections():
+    """A collection may have thousands of objects."""
+    scene_of_lines()
+    body = cube(size=1.5)
+    part = bpy.data.collections.new("part")
+    bpy.context.scene.collection.children.link(part)
+    for number in range(3000):
+        copy = bpy.data.objects.new(f"a name as long as people give them {number}", body.data)
+        copy.scale = (0.01, 0.01, 0.01)  # within the body, which hides it
+        part.objects.link(copy)
+    settings = {"thickness": 3, "select_by_collection": True, "collection": part}
+    assert ink_of(["crease"], **settings) == 0
+    lengths = sum(edge_lengths(body)[:2])
+    near(ink_of(["crease"], collection_negation="EXCLUSIVE", **settings), 3 * lengths, 0.04)
+
+
 def thickness():
     scene = scene_of_lines()
     outline, _, _ = edge_lengths(cube())
@@ -415,8 +431,8 @@ def as_freestyle_draws_it():
 
 CHECKS = (
     types_of_a_cube, combined_and_negated_types, crease_angle_is_between_faces, hidden_lines_by_their_surfaces,
-    open_and_marked_edges, contours_are_outlines_of_objects, collections, thickness, thickness_position,
-    color_and_alpha, earlier_sets_lie_above, dashes, layers_without_line_sets, modifiers_of_thickness,
+    open_and_marked_edges, contours_are_outlines_of_objects, collections, large_collections, thickness,
+    thickness_position, color_and_alpha, earlier_sets_lie_above, dashes, layers_without_line_sets, modifiers_of_thickness,
     modifiers_of_distance, modifiers_of_material, modifiers_along_strokes, what_is_not_drawn_is_named_once,
     as_freestyle_draws_it)
 

@@ -166,12 +166,17 @@ TEST(SheetErrors, OfTheWholeSheet) {
                          {"[lines]\nwidth = 3\n[style.ink]\n[[set]]\nname=\"a\"\nclasses=\"crease\"\nstyle=\"ink\"",
                           "1:2", "unknown key 'lines'"}});
     EXPECT_NE(error_of("style_version = 1").find("the sheet has no [[set]]"), std::string::npos);
-    EXPECT_NE(error_of(std::string(kMaxSheetBytes + 1, ' ')).find("more than 256 kB"), std::string::npos);
+    EXPECT_NE(error_of(std::string(kMaxSheetBytes + 1, ' ')).find("more than 8 MB"), std::string::npos);
     EXPECT_NE(error_of("a = " + std::string(100, '[')).find("nested more than 64 deep"), std::string::npos);
     std::string many = kInk + "[let]\n";
     for (int i = 0; i < 256; ++i) many += "l" + std::to_string(i) + " = \"=1\"\n";
     EXPECT_EQ(error_of(many), "");
     EXPECT_NE(error_of(many + "m = \"=1\"").find("more than 256"), std::string::npos);
+    std::string names;
+    for (int i = 0; i < 257; ++i) names += "\"part " + std::to_string(i) + "\", ";
+    const auto group = [](const std::string& list) { return kInk + "[groups]\nall = { objects = [" + list + "] }\n"; };
+    EXPECT_EQ(error_of(group(names)), "");
+    EXPECT_NE(error_of(group(names + "\"part*\"")).find("objects: has more than 256 entries"), std::string::npos);
 }
 
 TEST(SheetErrors, OfTheCommandLine) {

@@ -55,5 +55,24 @@ TEST(Glob, ListsAreReadFromLeftToRight) {
     EXPECT_FALSE(matches_globs({}, "glass"));
 }
 
+TEST(Glob, AListThatIsMadeReadyTakesTheSame) {
+    std::size_t taken = 0, plain = 0;
+    for (std::uint64_t trial = 0; trial < 5000; ++trial) {
+        Random random(trial);
+        const bool has_globs = random.integer(0, 1) == 0;
+        std::vector<std::string> patterns(static_cast<std::size_t>(random.integer(0, 8)));
+        for (std::string& pattern : patterns)
+            for (int i = random.integer(1, 3); i > 0; --i) pattern += "abab*?!"[random.integer(0, has_globs ? 6 : 3)];
+        const GlobList list(patterns);
+        plain += are_plain_names(patterns);
+        for (const char* name : {"", "a", "b", "ab", "ba", "aab", "bab", "!a"}) {
+            ASSERT_EQ(list.takes(name), matches_globs(patterns, name)) << trial << " " << name;
+            taken += list.takes(name);
+        }
+    }
+    EXPECT_GT(taken, 2000u);
+    EXPECT_GT(plain, 2000u);
+}
+
 }  // namespace
 }  // namespace burin

@@ -275,6 +275,19 @@ TEST(SheetMutations, PatternsForManyObjectsAreWork) {
     EXPECT_NE(error.find("the expressions of this sheet are too many or too long"), std::string::npos) << error;
 }
 
+/// Programs write down all names of a collection.
+TEST(SheetMutations, NamesOfManyObjectsAreNot) {
+    SheetContext many;
+    std::string names;
+    for (int i = 0; i < 20000; ++i) {
+        many.objects.push_back("object" + std::to_string(i));
+        if (i % 2 == 0) names += "\"object" + std::to_string(i) + "\", ";
+    }
+    const std::string text = "[groups]\nall = { objects = [" + names + "] }\n[style.s]\n" + kSet + "objects = [" +
+                             names + "]\nselect = 'not (object in all) or object2 in all'\n";
+    EXPECT_NO_THROW(const CompiledSheet compiled(read_sheet_text(text, "s.toml"), many));
+}
+
 /// What people write is far from that.
 TEST(SheetMutations, ALargeSheetIsNotTooMuch) {
     std::string text = kSet + "[let]\n";
