@@ -2,6 +2,7 @@
 
 import contextlib
 import gc
+import itertools
 from typing import NamedTuple
 
 import numpy as np
@@ -100,19 +101,22 @@ class Gatherer:
             if not instance.show_self:
                 continue
             thing = instance.object
-            base = instance.parent if instance.is_instance else thing
-            # The object of an instance is a copy which lies where that of the one before did.
-            itself = instance.instance_object if instance.is_instance else thing
-            data = thing.data
-            key = (itself.as_pointer(), base.as_pointer(), 0 if data is None else data.as_pointer())
-            if key not in self.known:
-                self.known[key] = self.placed(thing, base)
-            placed = self.known[key]
+            if instance.is_instance:
+                # Its object is a copy which lies where that of the one before did.
+                itself, base, data = instance.instance_object, instance.parent, thing.data
+                key = (itself.as_pointer(), base.as_pointer(), 0 if data is None else data.as_pointer())
+                if key not in self.known:
+                    self.known[key] = self.placed(thing, base)
+                placed = self.known[key]
+            else:
+                placed = self.placed(thing, thing)
             if placed is not None:
                 self.result.objects.append(placed)
                 rows.append(instance.matrix_world.copy())
         if rows:
-            self.result.matrices = np.array([(*m[0], *m[1], *m[2], 0, 0, 0, 1) for m in rows], float)
+            chain = itertools.chain.from_iterable
+            self.result.matrices = np.fromiter(chain(chain(rows)), float, 16 * len(rows)).reshape(-1, 16)
+            self.result.matrices[:, 12:] = 0, 0, 0, 1
 
     def placed(self, thing, base):
         """What all instances of an object share; None: it is not drawn."""
