@@ -346,7 +346,7 @@ def _text(value: Any) -> str:
 def _vector(name: str, value: Vector) -> npt.NDArray[np.float64]:
     array = np.asarray(value)
     if array.shape != (3,) or array.dtype.kind not in "fiu" or not np.all(np.isfinite(array)):
-        raise UsageError(f"{name}: must be three numbers")
+        raise UsageError(f"{name}: must be three finite numbers")
     return array.astype(np.float64)
 
 

@@ -196,7 +196,7 @@ def test_bad_meshes_are_named(mesh, error, message):
         ({"size": (99999, 3)}, "65535"),
         ({"eye": (0, 0, 0), "target": (0, 0, 0)}, "are one place"),
         ({"eye": (0, 5, 0), "up": (0, 1, 0), "target": (0, 0, 0)}, "up: is zero, or along"),
-        ({"eye": (0, float("nan"), 0)}, "eye: must be three numbers"),
+        ({"eye": (0, float("nan"), 0)}, "eye: must be three finite numbers"),
         ({"target": (0, 0, 0)}, "target: needs eye"),
         ({"fov": 30}, "need eye or matrix"),
         ({"pixel_aspect": 0.01}, "pixel_aspect"),
