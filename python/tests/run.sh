@@ -14,6 +14,7 @@ fail() { echo "python/tests/run.sh: $1" >&2; exit 1; }
 mkdir "$folder/source"
 ln -s "$(dirname "$package")/CMakeLists.txt" "$folder/source/"
 cp -r "$package" "$folder/source/python"
+rm -rf "$folder/source/python/build" # of an earlier installation; its files would be taken for newer ones
 BURIN_BUILD_FOLDER=$build "$folder/venv/bin/pip" install --quiet --no-build-isolation --no-index \
     --no-deps "$folder/source/python" || fail "it cannot be installed"
 
