@@ -53,12 +53,12 @@ const Method& svg_method() { return kSvg; }
 
 void draw_as_paths(Scene& scene) {
     scene.sheet = std::make_shared<const StyleSheet>(plain_sheet(scene.lines));
-    scene.names_lines = true;
+    scene.names_lines = scene.draws_one_sheet = true;
 }
 
 void draw_as_pixels(Scene& scene) {
     scene.sheet.reset();
-    scene.names_lines = false;
+    scene.names_lines = scene.draws_one_sheet = false;
 }
 
 std::vector<const Method*> compared_methods() {

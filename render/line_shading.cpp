@@ -79,6 +79,7 @@ FoundLines found_lines(LineDrawing drawing, const Frame& frame, int threads) {
     lines.has_smooth_contours = settings.contours == Contours::smooth;
     lines.filter = settings.style.filter;
     FoundLinesNeeds needs = found_needs_of(frame.sheet->needs());
+    needs.ends = frame.sheet->needs().ends || !frame.scene->draws_one_sheet;
     if (frame.scene->finds_all) needs.normals = needs.chains = true;
     needs.chains = needs.chains || frame.scene->names_lines;
     if (lines.has_smooth_contours) needs.apart_px = SmoothContours::kApartPx;

@@ -107,6 +107,8 @@ struct Scene {
     bool finds_all = false;
     /// Beside a sheet: chains and how many surfaces hide a line are known, too, for vector files name lines by them.
     bool names_lines = false;
+    /// Beside a sheet: no other sheet will draw what is found, so what this one does not read may be left out.
+    bool draws_one_sheet = false;
     SurfaceStyle surfaces;
     std::vector<SceneLight> lights;  ///< the first one is the key light; none: it is at the eye
     AbufferSettings abuffer;

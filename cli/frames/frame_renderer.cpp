@@ -117,6 +117,7 @@ bool settle_look(const Arguments& a, const Method& method, bool has_paths, Scene
     }
     const bool has_hidden_lines = refuse_hidden_lines(a, method, scene);
     if (has_paths) draw_by_sheet(scene);
+    scene.draws_one_sheet = a.save_lines.empty();
     return has_hidden_lines;
 }
 

@@ -22,7 +22,7 @@ void find_sides_and_runs(const LineDrawing& drawing, const SurfaceSet& surfaces,
             if (!piece.is_drawn && piece.occludes) lines.boundaries.push_back(piece);
         }
     }
-    if (has_any_chains)
+    if (has_any_chains && needs.ends)
         find_run_ends(lines.runs, lines.boundaries, surfaces.projection, {0, 0, lines.width_px, lines.height_px},
                       threads, !needs.chains);
     lines.has_chains = needs.chains;

@@ -66,6 +66,7 @@ struct FoundLinesNeeds {
     bool normals = false;
     bool chains = false;         ///< of visible lines and of hidden ones
     bool hidden_chains = false;  ///< of hidden lines
+    bool ends = true;            ///< of lines with chains: what stops them
     SurfaceNeeds surface;
     double apart_px = 0;  ///< PieceLinking::apart_px
 };

@@ -221,6 +221,7 @@ CompiledStyle compile_style(const SheetStyle& style, const ExpressionSymbols& sy
                           result.has_min_length || result.dash_lengths > 0 || result.smooth_px > 0 || result.shader ||
                           result.settings.copies > 1 || result.settings.caps == StrokeCaps::butt ||
                           result.variables.has_tier(VariableTier::chains);
+    result.needs_ends = result.has_overshoot || (result.has_taper && result.taper_at != TaperAt::all);
     const float most_width = style.shader ? kMostWidthPx : ink.most_of(style.width, kWidth);
     const float most_offset = style.shader ? kMostWidthPx : ink.most_of(style.offset, kWay);
     result.most_reach_px = 0.5f * most_width + most_offset + chain.most_of(style.overshoot, kWay) +

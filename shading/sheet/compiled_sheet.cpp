@@ -122,6 +122,7 @@ CompiledSheet::CompiledSheet(const StyleSheet& sheet, const SheetContext& contex
         needs_.variables |= read;
         if (style.needs_chains || read.has_tier(VariableTier::chains))
             (takes_visible(set) ? needs_.chains : needs_.hidden_chains) = true;
+        needs_.ends = needs_.ends || style.needs_ends || read.has(Variable::end_distance);
         if (style.settings.side != StrokeSide::both && takes_visible(set)) needs_.one_sided = true;
         needs_.most_reach_px = std::max(needs_.most_reach_px, style.most_reach_px);
     }

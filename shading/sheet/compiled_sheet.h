@@ -91,6 +91,7 @@ struct CompiledStyle {
     VariableSet variables;                ///< of both programs and the shader, and what carrying out the style reads
     std::vector<std::string> attributes;  ///< that the ink reads
     bool needs_chains = false;
+    bool needs_ends = false;  ///< what stops lines at their ends is read
     float most_reach_px = 0;  ///< how far from a line its ink may be: half its width, and what moves it
 };
 
@@ -105,6 +106,7 @@ struct SheetNeeds {
     bool sides = false;               ///< something of the surfaces beside and behind a line (tier 1)
     bool chains = false;              ///< chains (tier 2, or strokes are moved or cut)
     bool hidden_chains = false;       ///< the same of hidden lines: sets of visible ones may do without
+    bool ends = false;                ///< what stops lines at their ends
     bool one_sided = false;           ///< strokes are drawn on one side of their lines
     float most_reach_px = 0;
 };
