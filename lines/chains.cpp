@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/interrupt.h"
 #include "lines/end_links.h"
 
 namespace burin {
@@ -18,9 +19,12 @@ class ChainsOfLines {
         for (std::uint32_t end = 0; end < 2 * lines.size(); ++end) {
             if (node(end) != WholeLine::kNoNode) ends.push_back(end);
         }
-        std::sort(ends.begin(), ends.end(),
-                  [&](std::uint32_t a, std::uint32_t b) { return node(a) != node(b) ? node(a) < node(b) : a < b; });
+        std::sort(ends.begin(), ends.end(), [&](std::uint32_t a, std::uint32_t b) {
+            throw_if_interrupted();
+            return node(a) != node(b) ? node(a) < node(b) : a < b;
+        });
         for (auto first = ends.begin(); first != ends.end();) {
+            throw_if_interrupted();
             const auto next =
                 std::find_if(first, ends.end(), [&](std::uint32_t end) { return node(end) != node(*first); });
             link_node({&*first, static_cast<std::size_t>(next - first)});
@@ -52,6 +56,7 @@ class ChainsOfLines {
         };
         const auto before = [this](std::uint32_t a, std::uint32_t b) { return is_before(a, b); };
         std::stable_sort(chains.begin(), chains.end(), [&](const Chain& a, const Chain& b) {
+            throw_if_interrupted();
             if (a.length != b.length) return a.length > b.length;
             const auto p = ends_of(a), q = ends_of(b);
             if (std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end(), before)) return true;
@@ -60,7 +65,10 @@ class ChainsOfLines {
             if (is_before(q.back() ^ 1, p.back() ^ 1)) return false;
             return depth_of(p.front()) < depth_of(q.front());  // one lies behind the other
         });
-        for (const Chain& c : chains) visit(ends_of(c), c.is_loop);
+        for (const Chain& c : chains) {
+            throw_if_interrupted();
+            visit(ends_of(c), c.is_loop);
+        }
     }
 
   private:

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "base/interrupt.h"
+
 namespace burin {
 
 /// EndLinks links the ends of numbered pieces or lines in pairs, where one goes on as the other, and follows the links:
@@ -30,6 +32,7 @@ class EndLinks {
         std::vector<bool> done(links_.size() / 2, false);
         std::vector<std::uint32_t> chain;
         const auto follow = [&](std::uint32_t end, bool is_loop) {
+            throw_if_interrupted();
             chain.clear();
             for (; end != kNone && !done[number_of(end)]; end = links_[other_end(end)]) {
                 done[number_of(end)] = true;

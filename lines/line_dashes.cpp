@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/interrupt.h"
 #include "lines/chains.h"
 
 namespace burin {
@@ -13,8 +14,10 @@ bool is_feature(const WholeLine& line) {
 
 std::vector<WholeLine> features_of(std::span<const WholeLine> lines) {
     std::vector<WholeLine> features;
-    std::copy_if(lines.begin(), lines.end(), std::back_inserter(features),
-                 [](const WholeLine& line) { return line.is_edge() && is_feature(line); });
+    std::copy_if(lines.begin(), lines.end(), std::back_inserter(features), [](const WholeLine& line) {
+        throw_if_interrupted();
+        return line.is_edge() && is_feature(line);
+    });
     return features;
 }
 

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/interrupt.h"
 #include "lines/chains.h"
 #include "lines/whole_line_index.h"
 
@@ -64,9 +65,11 @@ class FeatureRuns {
                 return std::tuple(p.chain, p.is_hidden, p.piece.at_from_px, p.piece.at_to_px, p.piece.piece.from.x,
                                   p.piece.piece.from.y, p.piece.piece.line.bits);
             };
+            throw_if_interrupted();
             return key(a) < key(b);
         });
         for (std::size_t begin = 0, end = 0; begin < placed_.size(); begin = end) {
+            throw_if_interrupted();
             const auto is_of_chain = [&](const Placed& p) {
                 return p.chain == placed_[begin].chain && p.is_hidden == placed_[begin].is_hidden;
             };
@@ -185,6 +188,7 @@ bool runs_backwards(std::span<const RunPiece> pieces, bool is_closed) {
 void add_others(std::vector<const LinePiece*> pieces, bool is_hidden, const PieceLinking& linking, LineRuns& runs) {
     const PieceChains chains(std::move(pieces), linking);
     for (const PieceChains::Chain& chain : chains.all()) {
+        throw_if_interrupted();
         LineRun run;
         run.first = runs.pieces.size();
         run.count = chain.ends.size();
@@ -223,6 +227,7 @@ LineRuns runs_of(const LineDrawing::Lists& visible, const LineDrawing::Lists& be
     for (const LineDrawing::Lists* lists : {&visible, &behind}) {
         for (const std::span<const LinePiece> list : *lists) {
             for (const LinePiece& piece : list) {
+                throw_if_interrupted();
                 if (!piece.is_drawn || piece.from == piece.to) continue;
                 const bool is_hidden = piece.is_hidden();
                 if ((is_hidden ? of_hidden : of_seen).along_features && of_features.take(piece)) continue;

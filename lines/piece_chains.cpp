@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "base/interrupt.h"
+
 namespace burin {
 namespace {
 
@@ -32,6 +34,7 @@ std::vector<PieceChains::Chain> PieceChains::all() const {
     });
     const auto is_before = [this](std::uint32_t a, std::uint32_t b) { return is_higher(place(a), place(b)); };
     std::stable_sort(chains.begin(), chains.end(), [&](const Chain& a, const Chain& b) {
+        throw_if_interrupted();
         if (std::lexicographical_compare(a.ends.begin(), a.ends.end(), b.ends.begin(), b.ends.end(), is_before))
             return true;
         if (std::lexicographical_compare(b.ends.begin(), b.ends.end(), a.ends.begin(), a.ends.end(), is_before))
@@ -46,6 +49,7 @@ std::vector<std::uint32_t> PieceChains::find_nodes() {
     std::vector<std::uint32_t> ends(2 * pieces_.size());
     for (std::uint32_t i = 0; i < ends.size(); ++i) ends[i] = i;
     std::sort(ends.begin(), ends.end(), [&](std::uint32_t a, std::uint32_t b) {
+        throw_if_interrupted();
         const glm::dvec2 p = place(a), q = place(b);
         return p != q ? is_higher(p, q) : a < b;
     });
@@ -86,6 +90,7 @@ std::vector<std::uint32_t> PieceChains::find_nodes() {
     }
     for (const std::uint32_t end : ends) nodes_[end] = first_of(end);
     std::sort(ends.begin(), ends.end(), [&](std::uint32_t a, std::uint32_t b) {
+        throw_if_interrupted();
         const glm::dvec2 p = place(nodes_[a]), q = place(nodes_[b]);
         return p != q ? is_higher(p, q) : a < b;
     });

@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/interrupt.h"
+
 namespace burin {
 
 WholeLineIndex::WholeLineIndex(std::span<const WholeLine> lines) : lines_(lines) {
     for (std::uint32_t i = 0; i < lines.size(); ++i) numbers_.push_back({lines[i].id, i});
-    std::sort(numbers_.begin(), numbers_.end());
+    std::sort(numbers_.begin(), numbers_.end(), [](const auto& a, const auto& b) {
+        throw_if_interrupted();
+        return a < b;
+    });
 }
 
 std::optional<std::uint32_t> WholeLineIndex::find(const LinePiece& piece) const {

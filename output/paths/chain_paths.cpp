@@ -88,6 +88,12 @@ class Chainer {
         std::uint32_t end;
         auto operator<=>(const Cell&) const = default;
     };
+    /// For long lists, which are sorted until an interrupt.
+    template <typename T>
+    static bool is_before(const T& a, const T& b) {
+        throw_if_interrupted();
+        return a < b;
+    }
     static std::int32_t number(double at) {
         return static_cast<std::int32_t>(std::floor(std::clamp(at / (2 * kTogetherPx), -1e9, 1e9)));
     }
@@ -118,7 +124,7 @@ class Chainer {
             const glm::dvec2 p = place(end);
             cells_.push_back({number(p.y), number(p.x), end});
         }
-        std::sort(cells_.begin(), cells_.end());
+        std::sort(cells_.begin(), cells_.end(), is_before<Cell>);
         // Each end belongs to the nearest of the places that are there, or begins one. These are not close together, so
         // few of them are looked at.
         std::vector<Cell> places;
@@ -133,7 +139,7 @@ class Chainer {
         std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;
         ends.reserve(cells_.size());
         for (const Cell& cell : cells_) ends.emplace_back(place_of[cell.end], cell.end);
-        std::sort(ends.begin(), ends.end());
+        std::sort(ends.begin(), ends.end(), is_before<std::pair<std::uint32_t, std::uint32_t>>);
         std::vector<std::uint32_t> own;
         for (std::size_t begin = 0, end = 0; begin < ends.size(); begin = end) {
             own.clear();
@@ -282,6 +288,7 @@ class Chainer {
             *(last - 1) = *first;
         }
         std::sort(result.lines.begin(), result.lines.end(), [&result](const PathLine& a, const PathLine& b) {
+            throw_if_interrupted();
             if (a.kind.order != b.kind.order) return b.kind.order < a.kind.order;  // what is less lies above
             const auto key = [&result](const PathLine& l) {
                 const glm::dvec2 p = result.points[l.first_point], q = result.points[l.first_point + 1];

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string_view>
+#include <utility>
 
+#include "base/interrupt.h"
 #include "base/parallel.h"
 #include "shading/ink/line_chunks.h"
 #include "shading/ink/sampled_strokes.h"
@@ -253,6 +256,7 @@ std::vector<std::uint32_t> add_boundaries(const LineColumns& lines, InkedLines& 
 /// Notes the widest ink along each boundary; of equally wide ones, what lies on top.
 void add_ink_along(std::span<const Inked> parts, std::span<const std::uint32_t> boundaries, InkedLines& inked) {
     for (const Inked& part : parts) {
+        throw_if_interrupted();
         for (const OpaqueInk& ink : part.opaque) {
             InkBoundary& boundary = inked.boundaries[boundaries[ink.piece]];
             if (!(ink.width_px > 0)) continue;
@@ -314,14 +318,16 @@ InkedLines ink_lines(const FoundLines& found, const CompiledSheet& sheet, int th
     }
     inked.points.reserve(points);
     inked.strokes.reserve(strokes);
-    for (const Inked& part : parts) {
+    if (wishes.origins) inked.origins.reserve(strokes);
+    for (Inked& part : parts) {
+        throw_if_interrupted();
         const std::size_t before = inked.points.size();
         inked.points.insert(inked.points.end(), part.points.begin(), part.points.end());
         for (InkStroke stroke : part.strokes) {
             stroke.first_point += before;
             inked.strokes.push_back(stroke);
         }
-        inked.origins.insert(inked.origins.end(), part.origins.begin(), part.origins.end());
+        std::move(part.origins.begin(), part.origins.end(), std::back_inserter(inked.origins));
     }
     for (const CompiledSet& set : sheet.sets()) {
         inked.layers.push_back(set.layer);
