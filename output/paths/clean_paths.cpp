@@ -4,9 +4,11 @@
 #include <cmath>
 #include <span>
 #include <tuple>
+#include <unordered_set>
 #include <utility>
 
 #include "base/interrupt.h"
+#include "output/paths/dash_pattern.h"
 #include "output/paths/part_grid.h"
 
 namespace burin {
@@ -16,31 +18,14 @@ namespace {
 constexpr double kBesidePx = 0.25, kTwicePx = 1.5;
 /// The sine up to which two lines run the same way.
 constexpr double kParallelSine = 0.17;
-/// How much patterns of dashes may differ in their period, as a factor, and in the shares that parts have of it.
-constexpr double kMostStretch = 1.5, kOtherShare = 0.04;
 constexpr double kStepPx = 0.5, kMostReachPx = 2;
+/// Crumbs of hidden lines that are so near to other lines say nothing.
+constexpr double kSpeckPx = 1;
 
 double length_of(std::span<const glm::dvec2> points) {
     double length = 0;
     for (std::size_t i = 1; i < points.size(); ++i) length += glm::distance(points[i - 1], points[i]);
     return length;
-}
-
-/// Whether two patterns of dashes are one that was stretched by different factors, as it is to fit the lengths of
-/// lines.
-bool is_one_pattern(std::span<const float> a, std::span<const float> b) {
-    if (a.size() != b.size()) return false;
-    double a_period = 0, b_period = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        a_period += static_cast<double>(a[i]);
-        b_period += static_cast<double>(b[i]);
-    }
-    if (a_period > kMostStretch * b_period || b_period > kMostStretch * a_period) return false;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        const double off = static_cast<double>(a[i]) * b_period - static_cast<double>(b[i]) * a_period;
-        if (std::abs(off) > kOtherShare * a_period * b_period) return false;
-    }
-    return true;
 }
 
 /// A place on a line, between two of its points.
@@ -60,6 +45,7 @@ class Cleaner {
         for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
         // What lies highest comes first, of that the longest; crumbs come last.
         std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+            throw_if_interrupted();
             const auto key = [&](std::uint32_t i) {
                 const bool is_crumb = lengths[i] < kCrumbPx;
                 return std::tuple(is_crumb, lines_.lines[i].kind.order, -lengths[i], i);
@@ -110,13 +96,14 @@ class Cleaner {
             keeps_[number].push_back({});
             return;
         }
-        if (length < kCrumbPx && is_covered(number, points)) return;
+        if (length < kCrumbPx && (is_covered(number, points) || is_speck(number, points))) return;
         find_twice(number, points);
         if (twice_.empty()) {
             keeps_[number].push_back({});
         } else {
             keep_rest(number, points);
         }
+        if (length >= kCrumbPx) long_chains_.insert(line.chain);
         for (std::size_t i = 0; i + 1 < points.size(); ++i) grid_.add(points[i], points[i + 1], number);
     }
 
@@ -138,6 +125,19 @@ class Cleaner {
         if (!style.dash_px.empty()) reach = std::max(reach, 0.5 * kCrumbPx);
         return std::all_of(points.begin(), points.end(),
                            [&](glm::dvec2 p) { return is_near(number, p, reach, nullptr); });
+    }
+
+    /// Whether a crumb of a hidden line says nothing: its chain has longer parts, it has no length for its dashes, or
+    /// other lines are near.
+    bool is_speck(std::uint32_t number, std::span<const glm::dvec2> points) const {
+        const PathLine& line = lines_.lines[number];
+        if (!line.kind.order.is_hidden) return false;
+        if (!style_of(number).dash_px.empty() || long_chains_.contains(line.chain)) return true;
+        return std::all_of(points.begin(), points.end(), [&](glm::dvec2 p) {
+            return grid_.any_near(p, kSpeckPx, [&](const PartGrid::Part& part) {
+                return part.line != number && part.square_distance(p) <= kSpeckPx * kSpeckPx;
+            });
+        });
     }
 
     /// Finds the parts of a line that run along others.
@@ -180,7 +180,7 @@ class Cleaner {
             if (from.part == to.part && to.share <= from.share) return;
             if (from.part + 1 == to.part && from.share >= 1 && to.share <= 0) return;
             std::vector<glm::dvec2> part = part_of(points, from, to);
-            if (length_of(part) < kCrumbPx && is_covered(number, part)) return;
+            if (length_of(part) < kCrumbPx && (is_covered(number, part) || is_speck(number, part))) return;
             keeps_[number].push_back({false, from, to});
         };
         for (const auto& [begin, end] : twice_) {
@@ -225,8 +225,9 @@ class Cleaner {
     const PathLines& lines_;
     PartGrid grid_;
     PathLines result_;
-    std::vector<std::vector<Kept>> keeps_;        // of each line
-    std::vector<std::pair<Place, Place>> twice_;  // of the line that is looked at
+    std::unordered_set<std::uint64_t> long_chains_;  // that a line longer than a crumb is of
+    std::vector<std::vector<Kept>> keeps_;           // of each line
+    std::vector<std::pair<Place, Place>> twice_;     // of the line that is looked at
 };
 
 }  // namespace

@@ -240,6 +240,28 @@ TEST(CleanPaths, CrumbsOfDashedLinesGo) {
     }
 }
 
+/// Hidden lines leave no specks: neither beside other lines, nor of a chain that has longer parts, nor with dashes.
+TEST(CleanPaths, CrumbsOfHiddenLinesGo) {
+    for (const bool is_hidden : {false, true}) {
+        Lines lines;
+        lines.all().styles.push_back(lines.all().styles[0]);
+        lines.all().styles[1].dash_px = {8, 4};
+        const auto add = [&](glm::dvec2 at, double length) -> PathLine& {
+            PathLine& line = lines.add({at, at + glm::dvec2(length, 0)});
+            line.kind.order.is_hidden = is_hidden;
+            line.chain = 100 + lines.all().lines.size();
+            return line;
+        };
+        add({10, 20}, 80);
+        add({30, 20.9}, 0.6);               // beside it
+        add({95, 20}, 0.6).chain = 101;     // of its chain
+        add({30, 60}, 0.6).kind.style = 1;  // no dash
+        add({30, 80}, 0.6);                 // by itself
+        add({60, 80}, 0.3);
+        EXPECT_EQ(lines.cleaned().lines.size(), is_hidden ? 3u : 6u);
+    }
+}
+
 /// Adds a straight stroke.
 void add_stroke(InkedLines& lines, glm::dvec2 from, glm::dvec2 to, float width_px, float nearness) {
     InkStroke stroke;
