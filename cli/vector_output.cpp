@@ -76,12 +76,12 @@ void finish_drawing(const PictureSettings& picture, const Arguments& a, VectorDr
     const bool is_for_machine = a.page == PagePreset::plotter || a.page == PagePreset::laser;
     if (is_for_machine && a.background.empty()) drawing.paper.reset();
     if (!drawing.paper && !picture.transparent && !is_for_machine) drawing.paper = glm::vec3(1.0f);
-    if (a.page == PagePreset::patent) {
+    if (is_for_machine || a.page == PagePreset::patent) {
         const OpaquePaths made = make_opaque(drawing);
         if (made.solid + made.left_out > 0) {
-            notes.push_back("--page patent has no grey: of paths that fade, " + std::to_string(made.solid) +
-                            " are drawn solid, and " + std::to_string(made.left_out) +
-                            ", paler than half, are left out");
+            notes.push_back("--page " + std::string(page_of(a.page).name) + " has no grey: of paths that are pale, " +
+                            std::to_string(made.solid) + " are drawn solid, and " + std::to_string(made.left_out) +
+                            ", paler than half of the strongest of their set, are left out");
         }
     }
     if (a.page == PagePreset::laser) make_hairlines(kHairlineMm * drawing.dpi / 25.4, drawing);

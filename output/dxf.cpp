@@ -9,6 +9,8 @@
 
 #include "base/interrupt.h"
 #include "output/path_data.h"
+#include "output/paths/dash_pattern.h"
+#include "output/paths/path_order.h"
 #include "output/utf8.h"
 #include "output/vector_layers.h"
 
@@ -85,6 +87,7 @@ class DxfWriter {
                             (regions_ == 1 ? " region of a surface is" : " regions of surfaces are") + " left out");
         }
         add_note(transparent_, " drawn opaque", notes);
+        add_note(faded_, " left out, paler than half of the strongest of its set", notes);
         add_note(outlines_, " the outline of a stroke whose width varies, not filled", notes);
         add_note(recolored_, " in the nearest of 255 colours", notes);
         return std::move(out_);
@@ -135,9 +138,22 @@ class DxfWriter {
     }
 
     void name_dashes() {
-        for (const VectorStyle& style : drawing_.styles) {
-            if (!style.dash_px.empty())
-                dashes_.try_emplace(style.dash_px, "DASHES_" + std::to_string(dashes_.size() + 1));
+        std::map<std::vector<float>, std::size_t> counts;
+        for (const VectorPath& path : drawing_.paths) {
+            const std::vector<float>& dash_px = drawing_.styles[path.style].dash_px;
+            if (!dash_px.empty()) ++counts[dash_px];
+        }
+        // Line types have no phase, so what stretches a pattern to the length of a loop is left out: patterns that are
+        // one have the name of that which most paths have.
+        using Counted = std::pair<std::vector<float>, std::size_t>;
+        std::vector<Counted> order(counts.begin(), counts.end());
+        std::stable_sort(order.begin(), order.end(),
+                         [](const Counted& a, const Counted& b) { return a.second > b.second; });
+        for (const auto& [dash_px, count] : order) {
+            const auto same = std::find_if(line_types_.begin(), line_types_.end(),
+                                           [&](const auto& known) { return is_one_pattern(known, dash_px); });
+            dashes_[dash_px] = "DASHES_" + std::to_string(same - line_types_.begin() + 1);
+            if (same == line_types_.end()) line_types_.push_back(dash_px);
         }
     }
     std::string line_type(const VectorStyle* style) const {
@@ -177,9 +193,9 @@ class DxfWriter {
     void add_tables() {
         group(0, "SECTION");
         group(2, "TABLES");
-        begin_table("LTYPE", dashes_.size() + 1);
+        begin_table("LTYPE", line_types_.size() + 1);
         add_line_type("CONTINUOUS", {});
-        for (const auto& [dash_px, name] : dashes_) add_line_type(name, dash_px);
+        for (const std::vector<float>& dash_px : line_types_) add_line_type(dashes_.at(dash_px), dash_px);
         group(0, "ENDTAB");
         begin_table("LAYER", layers_.size() + 1);
         add_layer("0", nullptr);
@@ -211,10 +227,16 @@ class DxfWriter {
     void add_entities() {
         group(0, "SECTION");
         group(2, "ENTITIES");
+        const std::vector<float> least = least_opacities(drawing_);
         for (std::size_t i = 0; i < drawing_.groups.size(); ++i) {
             if (drawing_.groups[i].is_surface) continue;
-            for (const VectorPath& path : drawing_.paths_of(drawing_.groups[i]))
-                add_path(path, layers_[layer_of_group_[i]]);
+            for (const VectorPath& path : drawing_.paths_of(drawing_.groups[i])) {
+                if (drawing_.styles[path.style].opacity < least[i]) {
+                    ++faded_;
+                } else {
+                    add_path(path, layers_[layer_of_group_[i]]);
+                }
+            }
         }
         group(0, "ENDSEC");
         group(0, "EOF");
@@ -272,8 +294,9 @@ class DxfWriter {
     ShownArea area_;
     std::vector<Layer> layers_;
     std::vector<std::size_t> layer_of_group_;
-    std::map<std::vector<float>, std::string> dashes_;
-    std::size_t regions_ = 0, renamed_ = 0, transparent_ = 0, outlines_ = 0, recolored_ = 0;
+    std::map<std::vector<float>, std::string> dashes_;  ///< names of patterns, several of which may have one
+    std::vector<std::vector<float>> line_types_;
+    std::size_t regions_ = 0, renamed_ = 0, transparent_ = 0, outlines_ = 0, recolored_ = 0, faded_ = 0;
     std::string out_;
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <tuple>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -203,15 +205,31 @@ PenTravel sort_for_pen(VectorDrawing& drawing) {
     return result;
 }
 
+std::vector<float> least_opacities(const VectorDrawing& drawing) {
+    constexpr float kNothing = 1.0f / 256;
+    const auto key = [](const VectorGroup& g) { return std::tuple(g.is_surface, g.is_hidden, g.set); };
+    std::map<std::tuple<bool, bool, std::uint32_t>, float> strongest;
+    for (const VectorGroup& group : drawing.groups) {
+        float& most = strongest[key(group)];
+        for (const VectorPath& path : drawing.paths_of(group))
+            most = std::max(most, drawing.styles[path.style].opacity);
+    }
+    std::vector<float> least;
+    for (const VectorGroup& group : drawing.groups) least.push_back(std::max(kNothing, 0.5f * strongest[key(group)]));
+    return least;
+}
+
 OpaquePaths make_opaque(VectorDrawing& drawing) {
     OpaquePaths counts;
     std::vector<VectorPath> kept;
-    for (VectorGroup& group : drawing.groups) {
+    const std::vector<float> least = least_opacities(drawing);
+    for (std::size_t i = 0; i < drawing.groups.size(); ++i) {
+        VectorGroup& group = drawing.groups[i];
         const std::size_t first = kept.size();
         for (const VectorPath& path : drawing.paths_of(group)) {
             const float opacity = drawing.styles[path.style].opacity;
-            if (opacity >= 0.5f) kept.push_back(path);
-            if (opacity < 1) ++(opacity >= 0.5f ? counts.solid : counts.left_out);
+            if (opacity >= least[i]) kept.push_back(path);
+            if (opacity < 1) ++(opacity >= least[i] ? counts.solid : counts.left_out);
         }
         group.first_path = first;
         group.path_count = kept.size() - first;

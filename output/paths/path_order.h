@@ -21,7 +21,10 @@ PenTravel sort_for_pen(VectorDrawing& drawing);
 struct OpaquePaths {
     std::size_t solid = 0, left_out = 0;
 };
-/// Leaves out paths whose opacity is below one half, and makes all others opaque: for readers that take no grey.
+/// For each group: half of the strongest opacity of its set, of visible or of hidden lines. What is paler fades away
+/// where nothing is grey.
+std::vector<float> least_opacities(const VectorDrawing& drawing);
+/// Leaves out paths that fade away, and makes all others opaque: for readers and pens that take no grey.
 OpaquePaths make_opaque(VectorDrawing& drawing);
 
 /// Gives all strokes one width, without dashes and opacity. Outlines become strokes, too.

@@ -196,6 +196,7 @@ TEST(PathOrder, OpaquePathsAreSolidOrNotThere) {
     drawing.styles[0].opacity = 0.49f;
     drawing.styles[1].opacity = 0.5f;
     for (std::size_t i = 0; i < drawing.paths.size(); ++i) drawing.paths[i].style = i < 5 ? 0 : i % 2 + 1;
+    for (VectorGroup& group : drawing.groups) group.is_hidden = false;
     const OpaquePaths made = make_opaque(drawing);
     EXPECT_EQ(made.left_out, 5u);
     EXPECT_EQ(made.solid, 2u);
@@ -203,6 +204,31 @@ TEST(PathOrder, OpaquePathsAreSolidOrNotThere) {
     EXPECT_EQ(drawing.groups[0].path_count, 5u);
     EXPECT_EQ(drawing.paths.size(), 5u);
     for (const VectorStyle& style : drawing.styles) EXPECT_EQ(style.opacity, 1);
+}
+
+/// What is pale as a whole stays; what is much paler than others of its set goes.
+TEST(PathOrder, OpaqueIsMeasuredByTheStrongestOfASet) {
+    Random random(3);
+    VectorDrawing drawing = random_drawing(random, 3);
+    ASSERT_EQ(drawing.paths.size(), 6u);
+    drawing.groups.resize(3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        drawing.groups[i].first_path = 2 * i;
+        drawing.groups[i].path_count = 2;
+        drawing.groups[i].set = i < 2 ? 0 : 1;
+        drawing.groups[i].is_hidden = false;
+    }
+    const float opacities[] = {0.3f, 0.1f, 0.2f, 0.14f, 1, 0.4f};
+    drawing.styles.assign(6, drawing.styles[0]);
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        drawing.styles[i].opacity = opacities[i];
+        drawing.paths[i].style = i;
+    }
+    const OpaquePaths made = make_opaque(drawing);
+    EXPECT_EQ(made.left_out, 3u);
+    EXPECT_EQ(made.solid, 2u);
+    ASSERT_EQ(drawing.groups.size(), 3u);
+    for (const VectorGroup& group : drawing.groups) EXPECT_EQ(group.path_count, 1u);
 }
 
 TEST(PathOrder, HairlinesAreAllAlike) {

@@ -369,6 +369,24 @@ TEST(Dxf, LayersHaveColoursAndLineTypes) {
     EXPECT_EQ(file.polylines()[4].entries.at(62), "5");  // blue, unlike its layer
 }
 
+/// Line types have no phase: patterns that differ by what fits them to loops are one.
+TEST(Dxf, StretchedDashesAreOneLineType) {
+    VectorDrawing drawing = several_paths().drawing;
+    std::vector<VectorStyle> styles;
+    for (const float stretch : {0.9f, 1.0f, 1.0f, 1.1f, 1.2f, 3.0f}) {
+        styles.push_back(drawing.styles[0]);
+        styles.back().dash_px = {4 * stretch, 2 * stretch};
+    }
+    drawing.styles = styles;
+    for (std::size_t i = 0; i < drawing.paths.size(); ++i) drawing.paths[i].style = static_cast<std::uint32_t>(i % 6);
+    const DxfFile file(dxf(drawing));
+    const auto types = file.table("LTYPE");
+    EXPECT_EQ(types.size(), 3u);  // with CONTINUOUS
+    std::vector<std::string> parts;
+    for (auto [at, end] = types.at("DASHES_1").equal_range(49); at != end; ++at) parts.push_back(at->second);
+    EXPECT_EQ(parts, (std::vector<std::string>{"0.8", "-0.4"}));  // that of two paths; a pixel is 0.2 mm
+}
+
 TEST(Dxf, NearestColours) {
     EXPECT_EQ(nearest_color_index({0, 0, 0}), 7);
     EXPECT_EQ(nearest_color_index({254, 1, 2}), 1);
