@@ -169,9 +169,7 @@ DescribedInput describe_input(const Arguments& a) {
         if (a.page == PagePreset::iso128 && a.has_style_of_page && !a.line_width_px &&
             std::max(paper.x, paper.y) > kLongerSideOfA2)
             wished.line_width_px = kThickMm * context.px_per_mm;
-        StyleSheet sheet = *description.sheet;
-        if (a.page == PagePreset::iso128 && a.has_style_of_page) sheet = with_all_hidden_lines(std::move(sheet));
-        use_sheet(description, sheet_as_wished(std::move(sheet), wished, context));
+        use_sheet(description, sheet_as_wished(*description.sheet, wished, context));
     }
     for (const ObjectDescription& object : description.objects) {
         if (!object.file.empty()) input.files.push_back(object.file);

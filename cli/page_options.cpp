@@ -18,6 +18,10 @@ void fill_page(const std::string& name, Arguments& a) {
     if (a.style.empty()) {
         a.style = page->style;
         a.has_style_of_page = true;
+        // What is given by --set is stronger.
+        std::vector<Override> settings;
+        for (const PageSetting& s : page->settings) settings.push_back({std::string(s.key), std::string(s.value)});
+        a.overrides.insert(a.overrides.begin(), settings.begin(), settings.end());
     }
 }
 

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -65,13 +63,6 @@ std::shared_ptr<const StyleSheet> sheet_as_wished(StyleSheet sheet, const Argume
     }
     if (a.hidden) take_hidden_lines_away(sheet);
     return std::make_shared<StyleSheet>(std::move(sheet));
-}
-
-StyleSheet with_all_hidden_lines(StyleSheet sheet) {
-    for (LineSet& set : sheet.sets) {
-        if (set.qi[0] > 0) set.qi[1] = std::numeric_limits<std::uint8_t>::max();
-    }
-    return sheet;
 }
 
 }  // namespace burin

@@ -14,7 +14,4 @@ namespace burin {
 std::shared_ptr<const StyleSheet> sheet_as_wished(StyleSheet sheet, const Arguments& arguments,
                                                   const SheetContext& context);
 
-/// The sheet with hidden lines at any depth, where it has those right behind a face: workshop drawings have all.
-StyleSheet with_all_hidden_lines(StyleSheet sheet);
-
 }  // namespace burin

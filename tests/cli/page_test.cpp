@@ -213,6 +213,34 @@ TEST(Pages, Iso128) {
     EXPECT_NEAR(width_of({"--page", "iso128", "--paper", "A1", "-r", "8410", "-w", "9"}), 9, 1e-3);
 }
 
+/// ISO 128-2: visible edges and outlines are wide, hidden ones half of it, with dashes of 12 widths and gaps of 3.
+TEST(Pages, Iso128HasTwoWidths) {
+    const TemporaryFolder folder;
+    folder.write("a.toml", "[[object]]\nshape = 'box'\n[[object]]\nshape = 'box'\nsize = [0.5, 0.5, 0.5]\n");
+    const Arguments look = {"--page", "iso128", "-r", "2970", "--views", "front,top,iso", "-q"};
+    Arguments all = {"render", "a.toml", "-o", "a.svg"};
+    all.insert(all.end(), look.begin(), look.end());
+    ASSERT_EQ(run_burin(folder.path(), all).err, "");
+    const std::string svg = read_file(folder.file("a.svg"));
+    EXPECT_FALSE(has(svg, "opacity"));
+    const std::string hidden =
+        svg.substr(svg.find("layer-hidden"), svg.find("layer-visible") - svg.find("layer-hidden"));
+    EXPECT_TRUE(has(hidden, "stroke-width=\"2.5\""));
+    EXPECT_TRUE(has(hidden, "stroke-dasharray=\"27.5 10\""));  // round ends are parts of dashes
+    EXPECT_FALSE(has(svg.substr(svg.find("layer-visible")), "stroke-width=\"2.5\""));
+    EXPECT_TRUE(has(svg.substr(svg.find("layer-visible")), "stroke-width=\"5\""));
+}
+
+/// A pen and a laser have no grey.
+TEST(Pages, MachinesHaveNoGrey) {
+    const TemporaryFolder folder;
+    for (const char* const page : {"plotter", "laser", "patent"}) {
+        const std::string svg = drawn(folder, {"--page", page, "--style", "technical"});
+        EXPECT_TRUE(has(svg, "layer-hidden")) << page;
+        EXPECT_FALSE(has(svg, "opacity")) << page;
+    }
+}
+
 /// Workshop drawings have hidden lines at any depth; the sheet alone has those right behind a face.
 TEST(Pages, Iso128HasAllHiddenLines) {
     const TemporaryFolder folder;
