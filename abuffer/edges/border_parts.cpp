@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "abuffer/edges/edge_sides.h"
 #include "base/interrupt.h"
@@ -14,7 +15,7 @@ namespace {
 constexpr double kWidestCrackSubpixels = to_subpixels(kWidestCrackPx);
 /// A mesh with more than kMostBorderPairs pairs of a border and one about it has heaps of borders: there only borders
 /// that come near are told apart, and where borders lie over each other, only those that run along. Where more than
-/// kMostNear do, the border lies in a crowd.
+/// kMostNear, or KnownSeams::Along::kFew, do, the border lies in a crowd.
 constexpr std::size_t kMostBorderPairs = std::size_t{1} << 24, kFewAbout = 256, kMostNear = 32;
 /// What runs along a border in a crowd is looked up at this many places, and at fewer in meshes of more than 2^13
 /// borders, so that all lookups of a mesh are limited.
@@ -72,12 +73,19 @@ std::vector<BorderPart> parts_of_border(const ScreenSurfaces& screen, SurfaceId 
     throw_if_interrupted();  // in a crowd each takes long
     const Mesh& mesh = screen.surfaces().mesh_of(s);
     if (!mesh.borders.has_partners()) return {{}};
-    BorderIndex::SeamCandidates about, near;
-    const std::size_t most_about =
-        std::max(kMostBorderPairs / std::max(mesh.borders.segments().size(), std::size_t{1}), kFewAbout);
-    const bool is_crowd = mesh.borders.has_crowds() ? !mesh.borders.find_along(h, kMostNear, about)
-                                                    : !mesh.borders.find_candidates(h, most_about, about) &&
-                                                          !mesh.borders.find_near(h, kMostNear, about);
+    BorderIndex::SeamCandidates listed, near;
+    bool is_crowd = false;
+    std::shared_ptr<const KnownSeams::Along> known;
+    if (mesh.borders.has_crowds()) {
+        known = screen.known_seams().along(mesh.borders, h);
+        is_crowd = !known->is_complete;
+    } else {
+        const std::size_t most_about =
+            std::max(kMostBorderPairs / std::max(mesh.borders.segments().size(), std::size_t{1}), kFewAbout);
+        is_crowd = !mesh.borders.find_candidates(h, most_about, listed) &&
+                   !mesh.borders.find_near(h, kMostNear, listed);
+    }
+    const BorderIndex::SeamCandidates& about = known ? known->candidates : listed;
     if (!is_crowd && about.segments().empty()) return {{}};
     const glm::dvec3 a = mesh.local_position(start_of(mesh, h)), along = mesh.local_position(end_of(mesh, h)) - a;
     const double square = glm::dot(along, along);
@@ -98,7 +106,7 @@ std::vector<BorderPart> parts_of_border(const ScreenSurfaces& screen, SurfaceId 
         ends.push_back(static_cast<double>(k) / static_cast<double>(part_count));
     std::sort(ends.begin(), ends.end());
     // Few of the segments about the border come near it. Where many do, each place is looked up by itself.
-    constexpr std::size_t kFew = 32;
+    constexpr std::size_t kFew = KnownSeams::Along::kFew;
     const bool has_few = about.segments().size() <= kFew && !is_crowd;
     const bool has_few_near = !has_few && !is_crowd && mesh.borders.find_near(h, kFew, near);
     if (has_few_near && near.segments().empty()) return {{}};

@@ -132,7 +132,7 @@ class FastWalker {
     const ScreenSurfaces& screen_;
     const SurfaceSet& surfaces_;
     const LineCriteria& criteria_;
-    SeamMemory seams_;
+    SeamMemory seams_{screen_.known_seams()};
     UnsnappedPlaces places_;
     FastWalk::Step steps_[2][FastWalk::kMaxSteps];
     struct KnownEdge {

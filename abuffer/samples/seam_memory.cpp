@@ -12,7 +12,8 @@ constexpr std::size_t kFew = 64;
 
 std::optional<HalfEdge> SeamMemory::partner(const BorderIndex& borders, HalfEdge half_edge, const glm::dvec3& at) {
     if (borders.has_crowds()) {
-        if (const auto* const list = list_in_crowd(borders, half_edge)) return list->nearest(at);
+        const KnownSeams::Along& along = list_in_crowd(borders, half_edge);
+        if (along.is_complete) return along.candidates.nearest(at);
     }
     if (entries_.empty()) entries_.resize(kEntries);
     Entry& entry = entries_[half_edge % kEntries];
@@ -34,16 +35,16 @@ std::optional<HalfEdge> SeamMemory::partner(const BorderIndex& borders, HalfEdge
     return entry.use == Use::has_list ? entry.candidates.nearest(at) : borders.seam_partner(half_edge, at);
 }
 
-/// What runs along an edge, if that is little.
-const BorderIndex::SeamCandidates* SeamMemory::list_in_crowd(const BorderIndex& borders, HalfEdge half_edge) {
+/// What runs along an edge.
+const KnownSeams::Along& SeamMemory::list_in_crowd(const BorderIndex& borders, HalfEdge half_edge) {
     if (lists_.empty()) lists_.resize(kLists);
     List& list = lists_[half_edge % kLists];
     if (list.borders != &borders || list.half_edge != half_edge) {
         list.borders = &borders;
         list.half_edge = half_edge;
-        list.is_complete = borders.find_along(half_edge, kFew, list.candidates);
+        list.along = known_.along(borders, half_edge);
     }
-    return list.is_complete ? &list.candidates : nullptr;
+    return *list.along;
 }
 
 std::optional<HalfEdge> SeamMemory::partner_near_last(Entry& entry, const glm::dvec3& at) {

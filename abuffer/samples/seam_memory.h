@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "abuffer/screen/known_seams.h"
 #include "mesh/border_index.h"
 
 // Seam partners are remembered from sample to sample, since looking them up is slow where borders lie in heaps.
@@ -13,6 +15,7 @@ namespace burin {
 /// edges run along each of them, or where they are too many, what is nearest to the last place.
 class SeamMemory {
   public:
+    explicit SeamMemory(KnownSeams& known) : known_(known) {}
     std::optional<HalfEdge> partner(const BorderIndex& borders, HalfEdge half_edge, const glm::dvec3& at);
 
   private:
@@ -30,12 +33,12 @@ class SeamMemory {
     struct List {
         const BorderIndex* borders = nullptr;
         HalfEdge half_edge = 0;
-        bool is_complete = false;
-        BorderIndex::SeamCandidates candidates;
+        std::shared_ptr<const KnownSeams::Along> along;
     };
-    const BorderIndex::SeamCandidates* list_in_crowd(const BorderIndex& borders, HalfEdge half_edge);
+    const KnownSeams::Along& list_in_crowd(const BorderIndex& borders, HalfEdge half_edge);
     static std::optional<HalfEdge> partner_near_last(Entry& entry, const glm::dvec3& at);
 
+    KnownSeams& known_;
     std::vector<Entry> entries_;
     std::vector<List> lists_;
 };

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "abuffer/screen/known_seams.h"
 #include "kernels/tile_kernels.h"
 #include "lines/sharp_edges.h"
 #include "lines/surface_walk.h"
@@ -79,6 +80,8 @@ class ScreenSurfaces {
     bool is_plain(std::uint32_t number) const { return line_edges_[number] == 0; }
 
     const SurfaceSet& surfaces() const { return surfaces_; }
+    /// What runs along borders of the meshes, remembered for all threads.
+    KnownSeams& known_seams() const { return *known_seams_; }
 
     /// find_sharp_edges() of the instance's mesh; nullptr where its transform changes angles.
     const std::uint8_t* sharp_edges(std::uint32_t instance) const { return sharp_[instance]; }
@@ -104,6 +107,7 @@ class ScreenSurfaces {
     std::vector<const std::uint8_t*> sharp_;  // per instance
     std::vector<ScreenMesh> meshes_;          // per instance
     std::map<const Mesh*, std::vector<std::uint8_t>> made_here_;
+    std::unique_ptr<KnownSeams> known_seams_ = std::make_unique<KnownSeams>();
 };
 
 }  // namespace burin
