@@ -82,8 +82,8 @@ std::vector<BorderPart> parts_of_border(const ScreenSurfaces& screen, SurfaceId 
     } else {
         const std::size_t most_about =
             std::max(kMostBorderPairs / std::max(mesh.borders.segments().size(), std::size_t{1}), kFewAbout);
-        is_crowd = !mesh.borders.find_candidates(h, most_about, listed) &&
-                   !mesh.borders.find_near(h, kMostNear, listed);
+        is_crowd =
+            !mesh.borders.find_candidates(h, most_about, listed) && !mesh.borders.find_near(h, kMostNear, listed);
     }
     const BorderIndex::SeamCandidates& about = known ? known->candidates : listed;
     if (!is_crowd && about.segments().empty()) return {{}};
