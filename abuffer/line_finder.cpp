@@ -48,7 +48,8 @@ class Finder {
     }
 
     void run() {
-        VisiblePass visible(frame_, screen_, shaded_.get(), best_kernels(), stats_.threads, options_.progress);
+        VisiblePass visible(frame_, screen_, shaded_.get(), best_kernels(), stats_.threads, options_.progress,
+                            options_.depth_limit);
         find_visible(visible);
         if (frame_.needs.behind()) {
             find_behind(visible.possible_lines());

@@ -130,6 +130,16 @@ class VisiblePass::Worker {
     std::vector<LinePiece> lines_;  // of a tile: a list of its own would grow in memory that all threads share
 };
 
+VisiblePass::VisiblePass(const Frame& frame, ScreenSurfaces& screen, const ShadedSurfaces* shaded,
+                         const TileKernels& kernels, int threads, Progress* progress, const DepthLimit& depth_limit)
+    : frame_(frame),
+      screen_(screen),
+      shaded_(shaded),
+      kernels_(kernels),
+      threads_(threads),
+      progress_(progress),
+      depth_complexity_(depth_limit, {0, 0, frame.width, frame.height}) {}
+
 void VisiblePass::draw(PixelRect region, int tile_samples, RowSink* sink, LineDrawing& drawing, Film& film,
                        RenderStats& stats) {
     Stopwatch watch;
@@ -138,6 +148,7 @@ void VisiblePass::draw(PixelRect region, int tile_samples, RowSink* sink, LineDr
     const std::vector<LooseChunk> loose = chunks_of_loose_edges(screen_, frame_.criteria.classes);
     const bool has_edges = has_fine || !loose.empty();
     const TriangleBins bins(screen_, region, per_pixel, kernels_, threads_, tile_samples, has_edges);
+    depth_complexity_.add(screen_, bins, region, threads_);
     const PixelTiles grid(region, tile_samples / per_pixel);
     if (has_fine) possible_lines_.emplace(screen_, threads_);
     std::optional<FineEdges> fine_edges;

@@ -151,6 +151,9 @@ void add_render_options(CLI::App& app, Texts& t) {
     app.add_option("--memory", t.memory,
                    "method abuffer: cap for the renderer's own memory beyond the model and the finished image, "
                    "e.g. 200M, 2G; the picture is made in smaller pieces and is the same");
+    app.add_option("--depth-complexity", t.depth_complexity,
+                   "method abuffer: how many surfaces may lie over each pixel, on average, 1 to 1e9 (default 2000); a "
+                   "picture that has more would take minutes, and is refused before it is drawn");
     app.add_option("--repeat", t.repeat, "render this many times and report the median times in --stats");
     app.add_option("--progress", t.progress, "alf: print ALF_PROGRESS lines");
 }

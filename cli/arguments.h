@@ -11,6 +11,7 @@
 #include "lines/line_class.h"
 #include "output/exr_layers.h"
 #include "output/paths/vector_drawing.h"
+#include "render/depth_limit.h"
 #include "render/film.h"
 #include "scene/scene_description.h"
 #include "scene/standard_views.h"
@@ -76,6 +77,8 @@ struct Arguments {
     int bits = 8;
     int threads = 0;
     std::uint64_t memory_bytes = 0;  ///< 0: no cap
+    DepthLimit depth_limit{2000, "--depth-complexity"};
+    bool has_depth_limit = false;  ///< it was given
     ModelBudget model_budget{ModelBudget::kDefaultLimit, "--memory-model"};
     int repeat = 0;
     std::vector<std::string> methods;  ///< compare: names, in order; empty: all

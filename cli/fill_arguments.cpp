@@ -135,6 +135,12 @@ void fill_render_options(const Texts& t, Arguments& a) {
         fail("--background", "must be a colour like #c0d0ff, or transparent");
     }
     if (!t.memory.empty()) a.memory_bytes = byte_count("--memory", t.memory);
+    if (!t.depth_complexity.empty()) {
+        const double most = number("--depth-complexity", t.depth_complexity);
+        if (!(most >= 1 && most <= 1e9)) fail("--depth-complexity", "must be between 1 and 1000000000");
+        a.depth_limit.surfaces_per_px = most;
+        a.has_depth_limit = true;
+    }
     a.stats = t.stats;
     if (!t.repeat.empty()) a.repeat = integer("--repeat", t.repeat, 1, 1000000);
     if (!t.progress.empty() && t.progress != "alf") fail("--progress", "must be alf");

@@ -39,12 +39,32 @@ void fill_frame_options(const FrameTexts& t, Arguments& a) {
 }
 
 bool changes_no_picture(std::string_view option) {
-    static constexpr std::array kOptions = {
-        "INPUT",        "--output",    "--threads",    "--memory", "--memory-model",
-        "--stats",      "--progress",  "-v",           "-q",       "--frames",
-        "--frame",      "--turntable", "--crop",       "--repeat", "--skip-existing",
-        "--keep-going", "--strict",    "--dry-run",    "--json",   "--chunk",
-        "--bands",      "--retries",   "--save-lines", "--fps",    "--deep"};
+    static constexpr std::array kOptions = {"INPUT",
+                                            "--output",
+                                            "--threads",
+                                            "--memory",
+                                            "--memory-model",
+                                            "--stats",
+                                            "--progress",
+                                            "-v",
+                                            "-q",
+                                            "--frames",
+                                            "--frame",
+                                            "--turntable",
+                                            "--crop",
+                                            "--repeat",
+                                            "--skip-existing",
+                                            "--keep-going",
+                                            "--strict",
+                                            "--dry-run",
+                                            "--json",
+                                            "--chunk",
+                                            "--depth-complexity",
+                                            "--bands",
+                                            "--retries",
+                                            "--save-lines",
+                                            "--fps",
+                                            "--deep"};
     return std::find(kOptions.begin(), kOptions.end(), option) != kOptions.end();
 }
 

@@ -16,7 +16,7 @@ struct Texts {
     std::string input, output, size, eye, target, up, fov, ortho, camera, method, mask, samples, lines, operators,
         supersample;
     std::string width, color, frame, deep, save_lines, find, crease, hidden, style, layers, crop, threads, memory,
-        model_memory, stats, bits;
+        model_memory, depth_complexity, stats, bits;
     PageTexts page;
     VectorTexts vector;
     FrameTexts frames;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/progress.h"
+#include "render/depth_limit.h"
 #include "render/film.h"
 #include "render/frame.h"
 #include "render/stats.h"
@@ -22,6 +23,8 @@ struct RunOptions {
     std::uint64_t memory_bytes = 0;
     /// Method abuffer: samples along a tile's side, a power of two from 8 pixels to 128 samples; 0 = the best.
     int tile_samples = 0;
+    /// Method abuffer: what is deeper is refused, before anything is drawn.
+    DepthLimit depth_limit = {};
     /// Method abuffer: called once for each band of a film in bands, when its pixels will not change any more, by any
     /// thread. It may close the band.
     std::function<void(std::size_t band)> finished_band = nullptr;

@@ -366,6 +366,7 @@ DrawnFrame FrameRenderer::draw(const std::vector<OutputOptions>& outputs, Progre
     in_bands = in_bands && drawn.sub_frames == 1;
     drawn.film = std::make_unique<Film>(make_film(frame, layers, in_bands, !has_pixels(), first.path));
     RunOptions run{arguments_.threads, progress, arguments_.memory_bytes};
+    run.depth_limit = arguments_.depth_limit;
     std::atomic<bool> has_write_failed = false;
     begin_files(run, in_bands, drawn, has_write_failed);
     if (plan_.lines) {

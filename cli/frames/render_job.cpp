@@ -43,6 +43,8 @@ std::vector<OutputOptions> checked_outputs(const Arguments& a, const Method& met
     if (a.memory_bytes > 0 && method.name != "abuffer") {
         throw UsageError("--memory: method " + std::string(method.name) + " cannot render in pieces; abuffer can");
     }
+    if (a.has_depth_limit && method.name != "abuffer")
+        throw UsageError("--depth-complexity: limits method abuffer only; remove it");
     return list;
 }
 

@@ -53,6 +53,7 @@ TEST(Commands, HelpNamesCommandsAndOptions) {
                                "--threads",
                                "--memory",
                                "--memory-model",
+                               "--depth-complexity",
                                "--stats",
                                "--set",
                                "--repeat",
