@@ -160,7 +160,7 @@ class StrokeExplainer {
 
     /// The place of the stroke's line that is nearest to the pixel.
     LineSample sample_of(const InkStroke& stroke) const {
-        const auto run = static_cast<std::uint32_t>(stroke.chain >> 3);
+        const auto run = InkStroke::run_of(stroke.chain);
         const LineRun& r = found_.runs.runs[run];
         LineSample best{run, static_cast<std::uint32_t>(r.first), 0};
         double least = std::numeric_limits<double>::infinity();
@@ -225,7 +225,7 @@ class StrokeExplainer {
         result.other_is_behind = sides.is_beyond;
         result.invisibility = piece.invisibility;
         result.chain = sample.run;
-        result.copy = static_cast<std::uint32_t>(stroke.chain & 7);
+        result.copy = InkStroke::copy_of(stroke.chain);
         result.s_px = columns_.at_of(sample);
         result.length_px = run.chain_length_px;
         add_values(stroke, sample, result);

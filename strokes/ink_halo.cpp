@@ -79,7 +79,7 @@ void InkTile::erase_behind(const InkSegmentRef& ref, const InkSegment& segment) 
                 if (share <= 0) break;
                 InkRecord& record = records_[behind.record];
                 bool is_left = true;
-                if (record.chain != stroke.chain || record.rank != ref.rank) {
+                if (InkStroke::run_of(record.chain) != InkStroke::run_of(stroke.chain)) {
                     if (share != erased_share) {
                         erased = halo_mask(segment, halo_px * static_cast<double>(share), x, y);
                         erased_share = share;

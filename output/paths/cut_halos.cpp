@@ -87,7 +87,7 @@ class HaloCutter {
         return grid_.any_near(p.place, reach_px_ + own, [&](const PartGrid::Part& part) {
             const Segment& segment = segments_[part.line];
             const InkStroke& front = lines_.strokes[segment.stroke];
-            if (front.chain == stroke.chain && front.order == stroke.order) return false;
+            if (InkStroke::run_of(front.chain) == InkStroke::run_of(stroke.chain)) return false;
             const double square = part.square_distance(p.place);
             const double reach = reach_px_ + own;
             if (square >= reach * reach) return false;

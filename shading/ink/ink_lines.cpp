@@ -79,7 +79,7 @@ class StrokeMaker {
             if (has_begin) lengthen(true, 0);
             if (has_end) lengthen(false, 1);
         }
-        chain_ = std::uint64_t{stroke.stretch.run} << 3 | copy;
+        chain_ = InkStroke::chain_of(stroke.stretch.run, copy);
         if (wishes_.origins) edge_ = lines_.chain_hash(run, variant_).bits();
         halo_px_ = style_.has_halo ? value_of(stroke.chain, ChainValue::halo) : 0;
         halo_depth_px_ = {value_of(stroke.chain, ChainValue::halo_depth_near),

@@ -57,8 +57,12 @@ struct InkStroke {
     std::size_t first_point = 0, point_count = 0;  ///< in InkedLines::points; at least two, a dot has two equal places
     InkOrder order;
     /// Strokes of equal order and equal chain count once where they overlap: a line never darkens itself. Of strokes of
-    /// equal order the nearer one lies above, then the one with the lower chain.
+    /// equal order the nearer one lies above, then the one with the lower chain. It is made of the
+    /// numbers of a run and of the copy.
     std::uint64_t chain = 0;
+    static std::uint64_t chain_of(std::uint32_t run, std::uint64_t copy) { return std::uint64_t{run} << 3 | copy; }
+    static std::uint32_t run_of(std::uint64_t chain) { return static_cast<std::uint32_t>(chain >> 3); }
+    static std::uint32_t copy_of(std::uint64_t chain) { return static_cast<std::uint32_t>(chain & 7); }
     StrokeCaps caps = StrokeCaps::round;  ///< of its two ends; joins are always round
     InkBlend blend = InkBlend::over;
     StrokeSide side = StrokeSide::both;

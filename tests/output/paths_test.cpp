@@ -267,7 +267,7 @@ void add_stroke(InkedLines& lines, glm::dvec2 from, glm::dvec2 to, float width_p
     InkStroke stroke;
     stroke.first_point = lines.points.size();
     stroke.point_count = 2;
-    stroke.chain = lines.strokes.size();
+    stroke.chain = InkStroke::chain_of(static_cast<std::uint32_t>(lines.strokes.size()), 0);
     for (const glm::dvec2 place : {from, to}) {
         InkPoint p;
         p.place = place;
@@ -301,6 +301,22 @@ TEST(CutHalos, LinesFarBehindEndBesideThem) {
         EXPECT_NEAR(cut.points_of(cut.strokes[2]).front().place.y, 54.5, 0.02);
         EXPECT_EQ(cut.points_of(cut.strokes[2]).front().width_px, 1);
     }
+}
+
+/// A line that two sets draw, one over the other, is not behind itself, whatever rounding says of its depth.
+TEST(CutHalos, OtherStrokesOfTheLineStay) {
+    InkedLines lines;
+    add_stroke(lines, {10, 50}, {90, 50}, 6, 1);
+    lines.strokes[0].halo_px = 3;
+    lines.strokes[0].halo_depth_px = {0, 10};
+    add_stroke(lines, {10, 50}, {90, 50}, 3, 0.99f);
+    lines.strokes[1].order.set = 1;
+    lines.strokes[1].chain = lines.strokes[0].chain;
+    Projection projection;
+    projection.focal_px = 1000;
+    const InkedLines cut = with_halos_cut(lines, projection, kArea);
+    ASSERT_EQ(cut.strokes.size(), 2u);
+    EXPECT_EQ(cut.points_of(cut.strokes[1]).back().place.x, 90);
 }
 
 TEST(ClipLine, LeavesWhatIsInside) {

@@ -26,7 +26,7 @@ class InkPicture {
         InkStroke stroke;
         stroke.first_point = lines.points.size();
         stroke.point_count = points.size();
-        stroke.chain = lines.strokes.size();
+        stroke.chain = InkStroke::chain_of(static_cast<std::uint32_t>(lines.strokes.size()), 0);
         for (const InkPoint& p : points) {
             lines.points.push_back(p);
             const InkPoint& first = points.front();

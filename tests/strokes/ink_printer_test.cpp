@@ -126,7 +126,7 @@ TEST(InkPrinter, OrderIsPriorityThenSeenThenSetThenClassThenNearnessThenChain) {
         for (std::size_t i = 0; i < 2; ++i) lines.points[lines.strokes[stroke].first_point + i].nearness = -200;
     };
     EXPECT_FALSE(top_is_red([](InkedLines&) {}));
-    EXPECT_TRUE(top_is_red([](InkedLines& l) { l.strokes[0].chain = 5; }));
+    EXPECT_TRUE(top_is_red([](InkedLines& l) { l.strokes[0].chain = InkStroke::chain_of(5, 0); }));
     EXPECT_TRUE(top_is_red([&](InkedLines& l) { far(l, 0); }));
     EXPECT_FALSE(top_is_red([&](InkedLines& l) { far(l, 0), l.strokes[1].order.drawn_as = LineClass::crease; }));
     EXPECT_TRUE(top_is_red([&](InkedLines& l) { far(l, 1), l.strokes[0].order.drawn_as = LineClass::crease; }));
@@ -237,6 +237,25 @@ TEST(InkPrinter, HalosEraseWhatIsFartherAsWideAsTheyAre) {
                     << farther << " px farther, " << degree << " deg" << (perspective ? ", perspective" : "");
             }
         }
+    }
+}
+
+/// A line that two sets draw, one over the other, is not behind itself, whatever rounding says of its depth.
+TEST(InkPrinter, HalosSpareOtherStrokesOfTheLine) {
+    for (const bool is_one_line : {true, false}) {
+        InkPicture picture(96, 96);
+        InkStroke& casing = picture.add({18, 48}, {78, 48}, 6);
+        casing.halo_px = 3;
+        casing.halo_depth_px = {0, 10};
+        casing.order.below = 1;
+        const std::uint64_t chain = casing.chain;
+        InkPoint a = InkPicture::point({18, 48}, 3), b = InkPicture::point({78, 48}, 3);
+        a.nearness = b.nearness = -100.01f;
+        InkStroke& fill = picture.add({a, b});
+        fill.order.set = 1;
+        fill.order.drawn_as = LineClass::border;
+        if (is_one_line) fill.chain = chain;
+        EXPECT_NEAR(sum(picture.draw(), "coverage.border"), is_one_line ? 60 * 3 + kPi * 2.25 : 0.0, 0.5);
     }
 }
 
