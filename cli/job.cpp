@@ -192,6 +192,7 @@ std::optional<double> first_frame(const Arguments& a, const SceneDescription& sc
 LoadedInput load_input(DescribedInput input, const Arguments& a, const std::vector<OutputFile>& outputs) {
     SceneDescription& description = input.description;
     const std::vector<std::string> unread = description.unread_line_keys;
+    const bool sheet_surfaces_unread = description.sheet_surfaces_unread;
     LoadedInput loaded{{}, {}, description.frame_range, description.turntable, {}, description.hash};
     if (description.sheet && !description.sheet->file.empty()) loaded.files.push_back(description.sheet->file);
     refuse_to_overwrite(outputs, input.files);
@@ -226,6 +227,7 @@ LoadedInput load_input(DescribedInput input, const Arguments& a, const std::vect
     } else if (!unread.empty() && !a.quiet) {
         std::fprintf(stderr, "burin: note: %s\n", note_on_unread_keys(unread).c_str());
     }
+    if (sheet_surfaces_unread && !a.quiet) std::fprintf(stderr, "burin: note: %s\n", kSheetSurfacesAreUnread);
     if (a.crease_angle_deg) scene.lines.set_crease_angle((*a.crease_angle_deg)[0], (*a.crease_angle_deg)[1]);
     if (a.finds_all && scene.sheet) {
         scene.finds_all = true;

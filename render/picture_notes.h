@@ -13,6 +13,9 @@ namespace burin {
 std::string note_on_missing_marks(const Frame& frame);
 /// Keys of [lines], "width", that nothing reads beside a style sheet.
 std::string note_on_unread_keys(const std::vector<std::string>& keys);
+/// What is said where scene and sheet have [surfaces].
+constexpr const char* kSheetSurfacesAreUnread =
+    "the scene's own [surfaces] stay; those of the style sheet change nothing";
 /// A blur that the scene has, and that `who` ("burin explain") does not draw.
 std::string note_on_missing_blur(bool has_shutter, const Camera& camera, const std::string& who);
 /// What a picture of a scene is that the camera does not look at.

@@ -56,6 +56,7 @@ struct SceneDescription {
     LineSettings lines;
     std::shared_ptr<const StyleSheet> sheet;
     std::vector<std::string> unread_line_keys;  ///< keys of [lines] that nothing reads beside the sheet
+    bool sheet_surfaces_unread = false;         ///< the given sheet has [surfaces], and so has the scene's own file
     SurfaceStyle surfaces;
     std::vector<SceneLight> lights;
     AbufferSettings abuffer;

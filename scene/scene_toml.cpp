@@ -88,6 +88,7 @@ class SceneReader {
         read_style();
         if (auto t = root_.table("surfaces")) {
             scene_.surfaces = read_surfaces(*t);
+            scene_.sheet_surfaces_unread = !wishes_.style.empty() && scene_.sheet && scene_.sheet->surfaces;
         } else if (scene_.sheet && scene_.sheet->surfaces) {
             scene_.surfaces = *scene_.sheet->surfaces;
         }

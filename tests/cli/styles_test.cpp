@@ -179,6 +179,18 @@ TEST_F(Styles, SetChangesEveryValue) {
     expect_usage_error({"--set", "style.width=3"}, "there is no style sheet; give one with --style");
 }
 
+TEST_F(Styles, SayThatSurfacesOfTheSceneStay) {
+    folder_.write("flat.toml", kSheet + std::string("[surfaces]\nshading = \"flat\"\n"));
+    folder_.write("lambert.toml", "[surfaces]\nshading = \"lambert\"\n[[object]]\nfile = \"cube.obj\"\n");
+    folder_.write("both.toml", "style = \"flat.toml\"\n" + read_file(folder_.file("lambert.toml")));
+    EXPECT_EQ(render({"--style", "flat.toml"}, "lambert.toml").err,
+              "burin: note: the scene's own [surfaces] stay; those of the style sheet change nothing\n");
+    EXPECT_EQ(read_file(folder_.file("out.exr")), picture({"--style", "mine.toml"}, "lambert.toml"));
+    EXPECT_EQ(render({"--style", "flat.toml", "-q"}, "lambert.toml").err, "");
+    EXPECT_NE(picture({"--style", "flat.toml"}), picture({"--style", "mine.toml"}));
+    picture({}, "both.toml");  // whoever wrote the scene knows
+}
+
 TEST_F(Styles, TakeThePlaceOfLooksOrRefuseThem) {
     const ProgramResult noted = render({"--style", "mine.toml", "--set", "lines.draw=crease"}, "plain.toml");
     EXPECT_EQ(noted.status, 0);
