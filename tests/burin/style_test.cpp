@@ -199,8 +199,9 @@ TEST(LibraryStyle, DrawingsAreWrittenAsPaths) {
     scene.set_style("pencil");
     const Drawing drawing = scene.find_lines(kView);
     for (const std::string format : {"svg", "pdf", "dxf"}) {
-        const ProgramResult result = run_burin(folder.path(), {"render", kScenes + "cube.toml", "--size", "160x120",
-                                                               "-q", "--style", "pencil", "-o", "program." + format});
+        const ProgramResult result =
+            run_burin(folder.path(), {"render", kScenes + "cube.toml", "--size", "160x120", "-q", "--style", "pencil",
+                                      "--set", "surfaces.shading=paper", "-o", "program." + format});
         EXPECT_EQ(result.status, 0) << result.err;
         const std::vector<std::byte> file = drawing.encode(format.c_str());
         EXPECT_TRUE(std::string(reinterpret_cast<const char*>(file.data()), file.size()) ==

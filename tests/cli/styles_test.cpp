@@ -188,6 +188,8 @@ TEST_F(Styles, SayThatSurfacesOfTheSceneStay) {
     EXPECT_EQ(read_file(folder_.file("out.exr")), picture({"--style", "mine.toml"}, "lambert.toml"));
     EXPECT_EQ(render({"--style", "flat.toml", "-q"}, "lambert.toml").err, "");
     EXPECT_NE(picture({"--style", "flat.toml"}), picture({"--style", "mine.toml"}));
+    EXPECT_EQ(picture({"--style", "flat.toml", "--set", "style.surfaces.shading=lambert"}),
+              picture({"--style", "mine.toml"}, "lambert.toml"));
     picture({}, "both.toml");  // whoever wrote the scene knows
 }
 
