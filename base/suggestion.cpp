@@ -31,6 +31,10 @@ std::optional<std::string> closest_word(std::string_view word, const std::vector
         if (longer - shorter >= least) continue;
         const std::size_t distance = edit_distance(other, word);
         if (distance >= least) continue;
+        // Half of the letters are others: a word of its own, unless two of them changed places.
+        if (distance > 1 && 2 * distance >= longer &&
+            !std::is_permutation(other.begin(), other.end(), word.begin(), word.end()))
+            continue;
         least = distance;
         closest = other;
     }

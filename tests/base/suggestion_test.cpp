@@ -15,6 +15,15 @@ TEST(Suggestion, DistanceCountsCharacters) {
     EXPECT_EQ(edit_distance("sitting", "kitten"), 3u);
 }
 
+TEST(Suggestion, ShortWordsAreNotNearBecauseTheyAreShort) {
+    const std::vector<std::string> known{"base", "dash", "caps", "kr"};
+    EXPECT_EQ(closest_word("name", known), std::nullopt);
+    EXPECT_EQ(closest_word("cpas", known), "caps");
+    EXPECT_EQ(closest_word("dahs", known), "dash");
+    EXPECT_EQ(closest_word("dsh", known), "dash");
+    EXPECT_EQ(closest_word("kf", known), "kr");
+}
+
 TEST(Suggestion, OnlyWhatIsNear) {
     const std::vector<std::string> known{"--line-width", "--lines", "--layers"};
     EXPECT_EQ(closest_word("--line-widht", known), "--line-width");
