@@ -51,7 +51,6 @@ std::vector<std::string> SceneForFrame::notes() const {
     std::vector<std::string> notes;
     if (std::string unread = note_on_unread_keys(state_.settings.description().unread_line_keys); !unread.empty())
         notes.push_back(std::move(unread));
-    if (state_.settings.description().sheet_surfaces_unread) notes.emplace_back(kSheetSurfacesAreUnread);
     const bool has_shutter = state_.settings.description().shutter.has_value();
     if (std::string blur = note_on_missing_blur(has_shutter, frame_.camera, "the library"); !blur.empty())
         notes.push_back(std::move(blur));
