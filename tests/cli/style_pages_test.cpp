@@ -73,7 +73,8 @@ TEST(StylePages, HaveTheSheetsInFull) {
 
 TEST(StylePages, CommandsWorkAsTheyStand) {
     int count = 0;
-    for (const char* name : {"shading.md", "gallery.md", "start.md", "surfaces.md", "../README.md"}) {
+    for (const char* name :
+         {"shading.md", "shading/variables.md", "gallery.md", "start.md", "surfaces.md", "../README.md"}) {
         const TemporaryFolder folder;
         folder.write("mine.toml", read_file(kRoot / "docs/examples/start.toml"));
         for (const char* part : {"docs", "scenes"}) fs::create_directory_symlink(kRoot / part, folder.file(part));
