@@ -82,12 +82,12 @@ class Corners {
     Tree ends_;
 };
 
-/// Cuts of one border, in order along it.
-void find_cuts(const CrackSides& sides, const Corners& corners, std::uint32_t i, std::vector<std::uint32_t>& near,
-               std::vector<Cut>& cuts) {
+/// Adds the cuts of one border, in order along it. Returns how many others it looked at.
+std::size_t find_cuts(const CrackSides& sides, const Corners& corners, std::uint32_t i,
+                      std::vector<std::uint32_t>& near, std::vector<Cut>& cuts) {
     const Segment& s = sides.segments()[i];
     const double length = sides.length(i), most = sides.widest(i, length);
-    if (!(most > 0)) return;
+    if (!(most > 0)) return 0;
     const glm::dvec3 a = s.a, b = s.b, along = (b - a) / length;
     const double least = std::min(most, kNearestPart * length);
     corners.find(i, most, least, near);
@@ -115,28 +115,52 @@ void find_cuts(const CrackSides& sides, const Corners& corners, std::uint32_t i,
     const auto end =
         std::unique(begin, cuts.end(), [](const Cut& p, const Cut& q) { return q.share - p.share < kSamePlace; });
     cuts.erase(end, cuts.end());
+    return near.size();
+}
+
+/// How many ends of others may lie beside borders, all together.
+std::size_t most_beside(std::size_t border_count) {
+    constexpr std::size_t kMostBeside = 128, kMostInAll = std::size_t{1} << 26;
+    return std::min(kMostBeside * border_count, kMostInAll);
+}
+
+/// Whether more lie beside some borders all over the mesh: that is told without a look at all borders.
+bool is_pile_at_some(const CrackSides& sides, const Corners& corners, std::span<const std::uint32_t> borders) {
+    constexpr std::size_t kAsked = 256;
+    std::vector<std::uint32_t> near;
+    std::vector<Cut> cuts;
+    std::size_t looked_at = 0;
+    const std::size_t most = most_beside(borders.size()) * kAsked / borders.size();
+    for (std::size_t i = 0; i < kAsked && looked_at <= most; ++i) {
+        throw_if_interrupted();
+        looked_at += find_cuts(sides, corners, borders[i * borders.size() / kAsked], near, cuts);
+    }
+    return looked_at > most;
 }
 
 /// The cuts of all borders, in no order of these; none if there are too many.
 std::vector<Cut> find_all_cuts(const CrackSides& sides, int threads) {
-    // A corner cuts one border or two. Where there are many more, borders lie in a pile.
-    const std::size_t most_cuts = 16 * sides.segments().size();
+    // A corner cuts one border or two. Where there are many more, or ends of hundreds lie beside each border, borders
+    // lie in a pile.
+    const std::size_t most_cuts = 16 * sides.segments().size(), most_looked_at = most_beside(sides.segments().size());
     const Corners corners(sides);
     const std::span<const std::uint32_t> borders = sides.mesh().borders.by_place();
+    if (is_pile_at_some(sides, corners, borders)) return {};
     std::vector<std::vector<Cut>> in_batches(borders.size() / kBordersAtOnce + 1);
-    std::atomic<std::size_t> count{0};
+    std::atomic<std::size_t> count{0}, looked_at{0};
+    const auto is_pile = [&] { return count > most_cuts || looked_at > most_looked_at; };
     parallel_for_batches(borders.size(), kBordersAtOnce, threads,
                          [&](std::size_t batch, std::size_t begin, std::size_t end) {
                              std::vector<std::uint32_t> near;
                              std::vector<Cut>& cuts = in_batches[batch];
-                             for (std::size_t b = begin; b < end && count <= most_cuts; ++b) {
+                             for (std::size_t b = begin; b < end && !is_pile(); ++b) {
                                  throw_if_interrupted();
                                  const std::size_t before = cuts.size();
-                                 find_cuts(sides, corners, borders[b], near, cuts);
+                                 looked_at += find_cuts(sides, corners, borders[b], near, cuts);
                                  count += cuts.size() - before;
                              }
                          });
-    if (count > most_cuts) return {};
+    if (is_pile()) return {};
     std::vector<Cut> cuts;
     for (const std::vector<Cut>& some : in_batches) cuts.insert(cuts.end(), some.begin(), some.end());
     return cuts;
