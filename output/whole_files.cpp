@@ -2,6 +2,7 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string_view>
 
@@ -128,10 +129,20 @@ std::optional<WholeFile> text_of(std::string_view bytes, std::string_view begin,
     return WholeFile{fingerprint_behind(bytes, mark), std::nullopt};
 }
 
+/// Where the last chunk of an EXR ends.
+const char* end_of_chunks(const ExrContainer& file) {
+    const char* end = nullptr;
+    for (const ContainedPart& part : file.parts) {
+        for (const std::string_view chunk : part.chunks) end = std::max(end, chunk.data() + chunk.size());
+    }
+    return end;
+}
+
 std::optional<WholeFile> whole_file_of(std::string_view bytes, OutputFormat format) {
     switch (format) {
         case OutputFormat::exr: {
             const ExrContainer file = parse_exr_container({}, bytes);
+            if (end_of_chunks(file) != bytes.data() + bytes.size()) return std::nullopt;
             const std::string_view fingerprint = file.parts.front().text(kFingerprintName).value_or("");
             return WholeFile{std::string(fingerprint), file.parts.front().data, file.parts.front().is_deep};
         }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "base/interrupt.h"
 #include "base/mapped_file.h"
 #include "base/version.h"
@@ -37,7 +38,8 @@ Fingerprints::Fingerprints(const Arguments& a, const LoadedInput& input) : argum
 }
 
 FrameFingerprint Fingerprints::of(const SceneChange& places, const std::vector<Camera>& cameras,
-                                  const std::vector<std::string>& files) const {
+                                  const std::vector<std::string>& files,
+                                  const std::vector<std::string>& later_files) const {
     ContentHash hash = of_all_;
     hash.add(places.frame);
     for (const glm::dmat4& to_world : places.to_world) add(to_world, hash);
@@ -49,6 +51,13 @@ FrameFingerprint Fingerprints::of(const SceneChange& places, const std::vector<C
         if (camera.lens_radius > 0) hash.add(camera.lens_radius).add(camera.focus);
     }
     for (const std::string& file : files) add_content(file, hash);
+    for (const std::string& file : later_files) {
+        try {
+            add_content(file, hash);
+        } catch (const InputError&) {
+            hash.add("cannot be read");
+        }
+    }
     const std::string of_exr = hash.text();
     if (arguments_.crop) {
         for (const int side : *arguments_.crop) hash.add(static_cast<std::uint64_t>(side));

@@ -28,9 +28,10 @@ class Fingerprints {
     Fingerprints(const Arguments& arguments, const LoadedInput& input);
 
     /// `places`: of the frame, without what moves within models; `cameras`: all that see it; `files`: those that are
-    /// read for this frame alone. Throws InputError.
+    /// read for this frame alone; `later_files`: those of the next one, which a frame can do without. Throws
+    /// InputError.
     FrameFingerprint of(const SceneChange& places, const std::vector<Camera>& cameras,
-                        const std::vector<std::string>& files) const;
+                        const std::vector<std::string>& files, const std::vector<std::string>& later_files) const;
 
   private:
     const Arguments& arguments_;

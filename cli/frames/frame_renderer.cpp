@@ -1,6 +1,7 @@
 #include "cli/frames/frame_renderer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <utility>
@@ -28,8 +29,13 @@
 namespace burin {
 namespace {
 
-/// Of a blurred frame: keys of animations change what is there at some of them.
-constexpr int kTimesOfFingerprint = 16;
+/// Moments of a blurred frame, so many that keys of animations change what is there at some of them.
+std::vector<SubFrame> moments_of_fingerprint(const std::optional<ShutterSettings>& shutter) {
+    if (!shutter) return {};
+    constexpr double kPerFrame = 4, kFewest = 16, kMost = 4096;
+    const double count = std::clamp(std::ceil(kPerFrame * (shutter->close - shutter->open)), kFewest, kMost);
+    return sub_frames(&*shutter, false, static_cast<int>(count));
+}
 
 /// Refuses hidden lines that the command line asks for with a method that has none: only the A-buffer keeps the
 /// surfaces behind the first. Returns whether the scene asks for hidden lines.
@@ -187,7 +193,7 @@ FrameFingerprint FrameRenderer::fingerprint_of(double frame) const {
     SceneChange places;
     if (!plan_.is_at_rest) places = animation_.places_at(frame);
     places.frame = frame;
-    std::vector<std::string> files = animation_.files_at(frame);
+    std::vector<std::string> files = animation_.files_at(frame), later_files;
     std::vector<Camera> cameras;
     for (const ViewOnSheet& view : views_) cameras.push_back(view.camera);
     if (views_.empty()) {
@@ -196,19 +202,41 @@ FrameFingerprint FrameRenderer::fingerprint_of(double frame) const {
             const bool has_own = !change.cameras.empty();
             cameras.push_back(job_camera_->at(has_own ? change.cameras : first_cameras_, scene.picture, change.frame));
         };
-        add_camera(places);
-        for (const SubFrame& sub :
-             blur_.shutter ? sub_frames(&*blur_.shutter, false, kTimesOfFingerprint) : std::vector<SubFrame>()) {
-            SceneChange change = animation_.places_at(frame + sub.time);
-            change.frame = frame + sub.time;
+        const auto add_places = [&](double number) {
+            SceneChange change = animation_.places_at(number);
+            change.frame = number;
             places.to_world.insert(places.to_world.end(), change.to_world.begin(), change.to_world.end());
             add_camera(change);
-            for (std::string& file : animation_.files_at(change.frame)) {
+        };
+        add_camera(places);
+        for (const SubFrame& sub : moments_of_fingerprint(blur_.shutter)) {
+            add_places(frame + sub.time);
+            for (std::string& file : animation_.files_at(frame + sub.time)) {
                 if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(std::move(file));
             }
         }
+        for (const double number : next_frames_of(frame)) {
+            try {
+                add_places(number);
+                for (std::string& file : animation_.files_at(number)) later_files.push_back(std::move(file));
+            } catch (const InputError&) {  // then the layer is 0
+                continue;
+            }
+        }
     }
-    return fingerprints_->of(places, cameras, files);
+    return fingerprints_->of(places, cameras, files, later_files);
+}
+
+/// The frames at which the layer `motion` looks for where surfaces go: none without that layer. A blurred frame may
+/// turn out to need no blur, so both are named.
+std::vector<double> FrameRenderer::next_frames_of(double frame) const {
+    const bool has_flat_exr = std::any_of(outputs_.begin(), outputs_.end(), [](const OutputOptions& output) {
+        return output.format == OutputFormat::exr && !output.is_deep;
+    });
+    if (!has_flat_exr || !animation_.moves() || plan_.is_at_rest || !layers_for(scene(), arguments_).motion) return {};
+    const double middle = blur_.shutter ? middle_sub_frame(&*blur_.shutter).time : 0;
+    if (middle == 0) return {frame + 1};
+    return {frame + 1, frame + middle + 1};
 }
 
 bool FrameRenderer::is_there(double frame, const FrameFingerprint& fingerprint, std::string& note) const {

@@ -87,6 +87,7 @@ class FrameRenderer {
     RenderStats draw_as_paths_too(const RunOptions& run, DrawnFrame& drawn);
     void make_ready(Frame& frame, const LayerSet& layers, double time);
     void find_next(Frame& frame, double number);
+    std::vector<double> next_frames_of(double frame) const;
     /// The scene at a time within the frame in work.
     Moment moment_at(double number, double time, MomentUse use);
     void note(const std::string& text);
