@@ -110,9 +110,9 @@ TEST_F(StaleFrames, LongShuttersSeeShortMotion) {
 
 TEST_F(StaleFrames, BytesBehindTheLastChunkOfAnExrAreFound) {
     folder_.write("s.toml", moving_box("[1, 0, 0]"));
-    for (const Arguments& job : {Arguments{"-o", "x.#.exr"},
-                                 Arguments{"-o", "x.#.exr", "--parts", "--layers", "beauty,lines"},
-                                 Arguments{"--deep", "x.#.exr"}}) {
+    for (const Arguments& job :
+         {Arguments{"-o", "x.#.exr"}, Arguments{"-o", "x.#.exr", "--parts", "--layers", "beauty,lines"},
+          Arguments{"--deep", "x.#.exr"}}) {
         statuses(job);
         EXPECT_EQ(statuses(job), "skipped skipped skipped ");
         const std::string whole = content("x.0002.exr");
