@@ -6,26 +6,34 @@ namespace burin {
 namespace {
 
 // Measured with models of 70,000 to 900,000 triangles, and pictures of 640x360 to 3840x2160.
-constexpr std::uint64_t kProgramBytes = 14'000'000;
+constexpr std::uint64_t kProgramBytes = 16'000'000;
 constexpr std::uint64_t kBytesPerTriangle = 60;
+constexpr std::uint64_t kBytesPerObject = 4'000;
+constexpr std::uint64_t kBytesOfTiffModule = 110'000'000;  // and of the libraries that it brings along
 constexpr std::uint64_t kBytesPerThread = 10'000'000;
 constexpr std::uint64_t kBytesPerColumn = 5'000;  // of bands that wait to be compressed
-constexpr std::uint64_t kBytesOfAllLines = 12'000'000;
+constexpr std::uint64_t kBytesOfAllLines = 16'000'000;
 constexpr std::uint64_t kBytesPerDisplayPixel = 6;  // of a picture that is written as PNG or TIFF
 constexpr std::uint64_t kBytesPerColor = 8;         // red, green, blue and alpha in half precision
 
+/// Of the ranks of Cryptomatte, which are made for the rows that are written.
+std::uint64_t bytes_per_pixel_of_ranks(const LayerSet& layers) {
+    constexpr std::uint64_t kBytesPerRank = 8;
+    std::uint64_t count = 0;
+    for (int layer = 0; layer < kCryptoLayerCount; ++layer)
+        count += std::uint64_t{layers.crypto.has(static_cast<CryptoLayer>(layer))};
+    return kBytesPerRank * count * static_cast<std::uint64_t>(layers.crypto_ranks);
+}
+
+/// Of all else.
 std::uint64_t bytes_per_pixel(const LayerSet& layers, int classes) {
     const auto number = [](bool is_there, std::uint64_t bytes) { return is_there ? bytes : 0; };
-    constexpr std::uint64_t kBytesPerRank = 8, kCoverageBytes = 2;
-    std::uint64_t crypto = 0;
-    for (int layer = 0; layer < kCryptoLayerCount; ++layer)
-        crypto += number(layers.crypto.has(static_cast<CryptoLayer>(layer)), kBytesPerRank);
+    constexpr std::uint64_t kCoverageBytes = 2;
     return number(layers.beauty, kBytesPerColor) + number(layers.lines, kBytesPerColor) +
            number(layers.surface, kBytesPerColor) + number(layers.lines_hidden, kBytesPerColor) +
            kBytesPerColor * layers.line_sets.size() + number(layers.depth, 4) + number(layers.normal, 12) +
            number(layers.ids, 12) + number(layers.coverage, kCoverageBytes * static_cast<std::uint64_t>(classes)) +
-           crypto * static_cast<std::uint64_t>(layers.crypto_ranks) + number(layers.line, 22) +
-           number(layers.motion, 8);
+           number(layers.line, 22) + number(layers.motion, 8);
 }
 
 /// Layers of colours.
@@ -42,28 +50,35 @@ std::uint64_t pixel_count(PixelRect area) {
 
 MemoryForecast forecast_memory(const PictureLoad& load) {
     MemoryForecast forecast;
-    forecast.program = kProgramBytes;
-    forecast.model = kBytesPerTriangle * load.triangles;
+    forecast.program = kProgramBytes + (load.format == OutputFormat::tiff ? kBytesOfTiffModule : 0);
+    forecast.model = kBytesPerTriangle * load.triangles + kBytesPerObject * load.objects;
     const std::uint64_t pixels = pixel_count(load.area);
+    const auto columns = static_cast<std::uint64_t>(load.area.width());
     if (load.is_in_bands) {
-        const auto columns = static_cast<std::uint64_t>(load.area.width());
         forecast.film = std::min(kBytesPerColumn * columns, uncompressed_bytes(load));
     } else {
-        forecast.film = bytes_per_pixel(load.layers, load.classes) * pixels;
+        constexpr std::uint64_t kRowsOfRanks = 32;
+        forecast.film = bytes_per_pixel(load.layers, load.classes) * pixels +
+                        bytes_per_pixel_of_ranks(load.layers) * std::min(kRowsOfRanks * columns, pixels);
         if (load.format == OutputFormat::png || load.format == OutputFormat::tiff)
             forecast.film += kBytesPerDisplayPixel * pixels;
     }
     // Samples of deep files, and of rows that wait to be compressed.
-    constexpr std::uint64_t kBytesPerSample = 48, kRowsOfBands = 128;
+    constexpr std::uint64_t kBytesPerSample = 48, kDeepBytesPerColumn = 14'000;
     if (load.layers.deep) {
-        const auto columns = static_cast<std::uint64_t>(load.area.width());
-        forecast.film += kBytesPerSample * (load.is_in_bands ? std::min(kRowsOfBands * columns, pixels) : pixels);
+        const std::uint64_t whole = kBytesPerSample * pixels;
+        forecast.film += load.is_in_bands ? std::min(kDeepBytesPerColumn * columns, 2 * whole) : whole;
     }
-    // Shares of owners are kept beside the film; a sum has a number in single precision for each of half precision.
+    // Shares of owners are kept beside the film.
     constexpr std::uint64_t kBytesOfOwners = 16;
     if (load.layers.crypto.has_any() || load.layers.line) forecast.film += kBytesOfOwners * pixels;
-    if (load.is_blurred) forecast.film += 2 * kBytesPerColor * pixels * color_layers(load.layers);
     forecast.film *= static_cast<std::uint64_t>(load.frames_at_once);
+    // Sums of the frame that is drawn: a number in single precision for each of half precision, and shares by name.
+    constexpr std::uint64_t kBytesOfSharesInSums = 40;
+    if (load.is_blurred) {
+        forecast.film += 2 * kBytesPerColor * pixels * color_layers(load.layers);
+        if (load.layers.crypto.has_any()) forecast.film += kBytesOfSharesInSums * pixels;
+    }
     const std::uint64_t method =
         kBytesPerThread * static_cast<std::uint64_t>(load.threads) + (load.keeps_all_lines ? kBytesOfAllLines : 0);
     forecast.method = load.cap_bytes > 0 ? std::min(method, load.cap_bytes) : method;
@@ -71,7 +86,8 @@ MemoryForecast forecast_memory(const PictureLoad& load) {
 }
 
 std::uint64_t uncompressed_bytes(const PictureLoad& load) {
-    return bytes_per_pixel(load.layers, load.classes) * pixel_count(load.area);
+    return (bytes_per_pixel(load.layers, load.classes) + bytes_per_pixel_of_ranks(load.layers)) *
+           pixel_count(load.area);
 }
 
 }  // namespace burin

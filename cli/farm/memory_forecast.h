@@ -11,7 +11,8 @@ namespace burin {
 /// What the memory of a picture depends on.
 struct PictureLoad {
     std::uint64_t triangles = 0;  ///< of all meshes, each once
-    PixelRect area;               ///< that is drawn
+    std::uint64_t objects = 0;
+    PixelRect area;  ///< that is drawn
     LayerSet layers;
     int classes = 0;               ///< of lines, which the layer coverage has a channel for each
     bool is_in_bands = false;      ///< an EXR that is written while it is drawn

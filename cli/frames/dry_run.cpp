@@ -22,6 +22,7 @@ PictureLoad load_of(RenderJob& job, const Arguments& a) {
     load.layers = job.renderer().layers_of_first_frame(load.is_in_bands);
     const Scene& scene = job.renderer().scene();
     for (const Mesh& mesh : scene.meshes) load.triangles += mesh.triangles.size();
+    load.objects = scene.objects.size();
     load.area = crop_of(a, scene.picture.width, scene.picture.height);
     load.classes = kLineClassCount;
     load.is_blurred = job.renderer().is_blurred();

@@ -87,6 +87,35 @@ TEST(Assemble, WrongUseIsRefused) {
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.exr", "shot.toml"}));
 }
 
+/// Where each part of the forecast is most of it. Sanitizers take memory of their own.
+TEST(DryRun, ForecastsWhatRenderingTakes) {
+    if (test::kSanitized) GTEST_SKIP();
+    const TemporaryFolder folder;
+    std::string crowd = "[[camera]]\neye = [0, 40, 60]\ntarget = [0, 0, 0]\n";
+    for (int i = 0; i < 20'000; ++i) {
+        crowd += "[[object]]\nshape = \"box\"\nscale = 0.2\ntranslate = [" + std::to_string(i % 150 - 75) + ", 0, " +
+                 std::to_string(i / 150 - 65) + "]\n";
+    }
+    folder.write("crowd.toml", crowd);
+    folder.write("box.toml", "[[camera]]\neye = [3, 2, 5]\ntarget = [0, 0, 0]\n[[object]]\nshape = \"box\"\n");
+    for (const std::vector<std::string>& job :
+         {std::vector<std::string>{"crowd.toml", "-o", "x.png", "-r", "320x240"},
+          {"box.toml", "-o", "x.tif", "-r", "320x240"},
+          {"box.toml", "-o", "x.exr", "--layers", "beauty,lines,crypto", "--hidden", "dashed"}}) {
+        const auto number = [&](std::vector<std::string> more) {
+            more.insert(more.begin(), "render");
+            more.insert(more.end(), job.begin(), job.end());
+            const ProgramResult result = run_burin(folder.path(), more);
+            EXPECT_EQ(result.status, 0) << result.err;
+            return nlohmann::json::parse(result.out);
+        };
+        const double forecast = number({"--dry-run", "--json"})["memory_bytes"]["total"];
+        const double peak = number({"--stats", "-"})["peak_rss_bytes"];
+        EXPECT_GT(forecast / peak, 0.75) << job[0] << " " << job[2] << " " << peak;
+        EXPECT_LT(forecast / peak, 1.5) << job[0] << " " << job[2] << " " << peak;
+    }
+}
+
 TEST(DryRun, TellsFramesAndMemoryAndDrawsNothing) {
     const TemporaryFolder folder;
     folder.write("shot.toml", kShot);
