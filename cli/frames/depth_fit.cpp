@@ -31,4 +31,14 @@ void fit_depth_ranges(const SceneAnimation& animation, const std::vector<double>
         scene.gbuffer.reference_distance = 0.5 * (nearest + farthest);
 }
 
+std::vector<double> frames_to_fit(const std::vector<double>& range, const std::optional<Turntable>& turntable) {
+    if (!range.empty() || !turntable) return range;
+    constexpr int kMost = 720;
+    const int count = std::min(turntable->frames, kMost);
+    std::vector<double> frames;
+    for (int i = 0; i < count; ++i)
+        frames.push_back(turntable->first + static_cast<double>(turntable->frames) * i / count);
+    return frames;
+}
+
 }  // namespace burin

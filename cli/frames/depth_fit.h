@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "cli/job.h"
@@ -10,5 +11,9 @@ namespace burin {
 /// not change from frame to frame. A range that the scene says stays. `scene`: at rest.
 void fit_depth_ranges(const SceneAnimation& animation, const std::vector<double>& frames, const JobCamera& camera,
                       Scene& scene);
+
+/// The frames that depth ranges are fitted to: the scene's, or those of one turn; of long turns so many that the margin
+/// of the fit has room for what is between them.
+std::vector<double> frames_to_fit(const std::vector<double>& range, const std::optional<Turntable>& turntable);
 
 }  // namespace burin

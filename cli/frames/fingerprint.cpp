@@ -6,6 +6,7 @@
 #include "base/interrupt.h"
 #include "base/mapped_file.h"
 #include "base/version.h"
+#include "cli/frames/depth_fit.h"
 
 namespace burin {
 namespace {
@@ -28,7 +29,7 @@ Fingerprints::Fingerprints(const Arguments& a, const LoadedInput& input) : argum
     of_all_.add(kProgramVersion).add(input.hash).add(a.picture_options);
     of_all_.add(input.scene.frame.fps);
     if (!a.method.empty() && a.method != "abuffer") {  // what fit_depth_ranges() fits to
-        for (const double frame : input.frame_range) of_all_.add(frame);
+        for (const double frame : frames_to_fit(input.frame_range, input.turntable)) of_all_.add(frame);
     }
     for (const SceneObject& object : input.scene.objects) add(object.to_world, of_all_);
     std::vector<std::string> files = input.files;

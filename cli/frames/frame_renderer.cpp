@@ -154,6 +154,7 @@ FrameRenderer::FrameRenderer(const Arguments& a, const Method& method, LoadedInp
       animation_(std::move(input.animation)),
       fingerprints_(plan.is_sequence || a.skips_existing ? std::optional<Fingerprints>(std::in_place, a, input)
                                                          : std::nullopt),
+      moves_(!plan.is_at_rest && (animation_.moves() || input.turntable)),
       is_blurred_(a.shutter || input.scene.shutter),
       posed_(std::move(input.scene), a, method, plan.frames.size() + (is_blurred_ ? 1 : 0)) {
     const Stopwatch watch;
@@ -168,11 +169,11 @@ FrameRenderer::FrameRenderer(const Arguments& a, const Method& method, LoadedInp
         job_camera_.emplace(scene, first, points, input.turntable, a);
         camera_ = job_camera_->at(first, scene.picture, plan.frames.front());
         // Only these look at depth in steps.
-        if (plan.is_sequence && animation_.moves() && method.name != "abuffer" && !input.frame_range.empty())
-            fit_depth_ranges(animation_, input.frame_range, *job_camera_, scene);
+        const std::vector<double> seen = frames_to_fit(input.frame_range, input.turntable);
+        if (plan.is_sequence && moves_ && method.name != "abuffer" && !seen.empty())
+            fit_depth_ranges(animation_, seen, *job_camera_, scene);
     }
-    const bool moves = !plan.is_at_rest && (animation_.moves() || input.turntable);
-    blur_ = blur_of(scene, camera_, a, moves, has_paths());
+    blur_ = blur_of(scene, camera_, a, moves_, has_paths());
     if (!views_.empty()) blur_ = {};  // it was refused if it is more than one sub-frame
     pose_s_ = watch.seconds();
 }
@@ -183,7 +184,7 @@ std::vector<double> FrameRenderer::next_frames_of(double frame) const {
     const bool has_flat_exr = std::any_of(outputs_.begin(), outputs_.end(), [](const OutputOptions& output) {
         return output.format == OutputFormat::exr && !output.is_deep;
     });
-    if (!has_flat_exr || !animation_.moves() || plan_.is_at_rest || !layers_for(scene(), arguments_).motion) return {};
+    if (!has_flat_exr || !moves_ || !layers_for(scene(), arguments_).motion) return {};
     const double middle = blur_.shutter ? middle_sub_frame(&*blur_.shutter).time : 0;
     if (middle == 0) return {frame + 1};
     return {frame + 1, frame + middle + 1};
@@ -363,7 +364,7 @@ void FrameRenderer::make_ready(Frame& frame, const LayerSet& layers, double time
 
 /// Finds where the surfaces of a frame are at another one.
 void FrameRenderer::find_next(Frame& frame, double number) {
-    if (!animation_.moves() || plan_.is_at_rest) return;
+    if (!moves_) return;
     try {
         next_change_ = animation_.at(number);
     } catch (const InputError& error) {

@@ -99,6 +99,7 @@ class FrameRenderer {
     SceneAnimation animation_;
     std::optional<Fingerprints> fingerprints_;
     bool has_hidden_lines_ = false;
+    bool moves_;       // objects, meshes or cameras, those of a turntable, too
     bool is_blurred_;  // by what moves, if anything does
     std::optional<JobCamera> job_camera_;
     PosedScene posed_;

@@ -188,6 +188,28 @@ TEST(ExrFiles, MotionLeadsToTheNextFrame) {
     }
 }
 
+TEST(ExrFiles, MotionIsThatOfATurntableToo) {
+    const TemporaryFolder folder;
+    write_file(folder.file("turn.toml"),
+               "[turntable]\nframes = 72\n[[object]]\nshape = \"box\"\nscale = 0.2\ntranslate = [0, 0, 1]\n"
+               "[[camera]]\nprojection = \"orthographic\"\nheight = 4\neye = [0, 0, 5]\ntarget = [0, 0, 0]\n");
+    ASSERT_EQ(render(folder, "turn.toml", "m.exr", {"--frame", "1", "--layers", "motion,ids"}).err, "");
+    const Image image = read_exr(folder.file("m.exr"));
+    const double angle = 2 * M_PI / 72, z = 1 + 0.2 / 2;
+    int seen = 0;
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 96; ++x) {
+            const bool is_box = image.value(*image.find("id.object"), x, y) == 1;
+            const double place = (x + 0.5 - 48) / 16;
+            const double moved = is_box ? 16 * (place * (std::cos(angle) - 1) - z * std::sin(angle)) : 0;
+            ASSERT_NEAR(image.value(*image.find("forward.u"), x, y), moved, 2e-3) << x << "," << y;
+            ASSERT_NEAR(image.value(*image.find("forward.v"), x, y), 0, 1e-4);
+            seen += is_box;
+        }
+    }
+    EXPECT_GE(seen, 4);
+}
+
 TEST(ExrFiles, StatsCountNamesWithoutRoom) {
     const TemporaryFolder folder;
     ASSERT_EQ(

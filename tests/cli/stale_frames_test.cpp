@@ -122,5 +122,35 @@ TEST_F(StaleFrames, BytesBehindTheLastChunkOfAnExrAreFound) {
     }
 }
 
+/// Depth is fitted to all frames of a turn, or the picture would breathe: a turn of one frame is another one.
+TEST_F(StaleFrames, DepthOfATurntableIsThatOfAllItsFrames) {
+    const std::string boxes =
+        "[[object]]\nshape = \"box\"\nscale = [1, 1, 9]\n"
+        "[[object]]\nshape = \"torus\"\ntranslate = [0, 0, 6]\n";
+    const auto picture = [&](const std::string& scene, const char* frames) {
+        folder_.write("s.toml", scene + boxes);
+        const ProgramResult result =
+            run_burin(folder_.path(), {"render", "s.toml", "--turntable", frames, "-f", "1", "-o", "x.#.png", "-m",
+                                       "gbuffer", "-r", "192x128", "--eye", "3,2,9", "--target", "0,0,0", "-q"});
+        EXPECT_EQ(result.err, "");
+        std::string bytes = content("x.0001.png");
+        const std::size_t at = bytes.find("burin/fingerprint");
+        return at == std::string::npos ? std::string() : bytes.erase(at, 38);  // with its digits and their sum
+    };
+    const std::string turn = picture("", "8");
+    EXPECT_FALSE(turn == picture("", "1"));
+    EXPECT_TRUE(turn == picture("[frames]\nrange = \"1-8\"\n", "8"));
+    folder_.write("s.toml", boxes);
+    const Arguments job{"-f", "1", "-o", "y.#.png", "-m", "gbuffer", "--turntable"};
+    const auto of_turn = [&](const char* frames) {
+        Arguments all = job;
+        all.push_back(frames);
+        return statuses(all);
+    };
+    EXPECT_EQ(of_turn("8"), "done ");
+    EXPECT_EQ(of_turn("8"), "skipped ");
+    EXPECT_EQ(of_turn("1"), "done ");
+}
+
 }  // namespace
 }  // namespace burin::test::stale_frames_test
