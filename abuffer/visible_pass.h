@@ -23,7 +23,7 @@ class VisiblePass {
   public:
     /// `shaded`: of a shading that varies over surfaces, else nullptr.
     VisiblePass(const Frame& frame, ScreenSurfaces& screen, const ShadedSurfaces* shaded, const TileKernels& kernels,
-                int threads, Progress* progress, const DepthLimit& depth_limit);
+                int threads, Progress* progress, const DepthLimit& depth_limit = {});
 
     /// Fills the pixels of the tiles of `region` in the film, puts their lines into the drawing, and adds the time it
     /// took. Throws InputError where surfaces lie deeper than the limit. `sink`: is told of rows of tiles that are
