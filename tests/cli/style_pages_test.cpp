@@ -134,8 +134,9 @@ TEST(StylePages, PagesWriteNoSceneOfOthers) {
 TEST(StylePages, ScenesOfSequencesAreDrawn) {
     const struct {
         const char *page, *scene;
-    } scenes[] = {{"pipeline.md", "shot.toml"}, {"pipeline/blur.md", "scene.toml"}};
-    for (const auto& [name, scene] : scenes) {
+        int commands;
+    } scenes[] = {{"pipeline.md", "shot.toml", 3}, {"pipeline/blur.md", "scene.toml", 2}};
+    for (const auto& [name, scene, commands] : scenes) {
         const TemporaryFolder folder;
         const std::string text = page(name), begin = "```toml\n";
         const std::size_t at = text.find(begin) + begin.size();
@@ -150,7 +151,7 @@ TEST(StylePages, ScenesOfSequencesAreDrawn) {
             EXPECT_EQ(result.status, 0) << name << ": " << command.arguments[1] << "\n" << result.err;
             ++count;
         }
-        EXPECT_EQ(count, 2) << name;
+        EXPECT_EQ(count, commands) << name;
     }
 }
 
