@@ -92,6 +92,7 @@ bool are_wound_alike(const Mesh& mesh, std::uint32_t a, std::uint32_t b, std::si
 }
 
 bool BodySides::are_same(std::uint32_t a, std::uint32_t b) const {
+    if (are_known_.load(std::memory_order_acquire)) return sides_[a] == sides_[b];
     if (are_wound_alike(mesh_, a, b)) return true;
     // A few long ways, though they lead nowhere, are less work than the whole mesh.
     constexpr std::size_t kMost = 4096;

@@ -30,7 +30,10 @@ class BodySides {
   public:
     explicit BodySides(const Mesh& mesh) : mesh_(mesh) {}
     int of(std::uint32_t triangle) const {
-        std::call_once(is_found_, [this] { sides_ = find_body_sides(mesh_); });
+        std::call_once(is_found_, [this] {
+            sides_ = find_body_sides(mesh_);
+            are_known_.store(true, std::memory_order_release);
+        });
         return sides_[triangle];
     }
 
@@ -43,6 +46,7 @@ class BodySides {
     mutable std::atomic<std::size_t> visited_ = 0;  // triangles on long ways that led nowhere
     mutable std::once_flag is_found_;
     mutable std::vector<std::int8_t> sides_;
+    mutable std::atomic<bool> are_known_ = false;
 };
 
 }  // namespace burin
