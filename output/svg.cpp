@@ -192,6 +192,7 @@ class SvgWriter {
             std::string names;
             for (const std::uint64_t edge : edges) names += (names.empty() ? "" : " ") + hex(edge);
             add("data-edge", names);
+            if (path.unnamed_edges > 0) add("data-edge-count", std::to_string(path.edge_count + path.unnamed_edges));
         }
         // There is no other way to say this.
         if (drawing_.styles[path.style].blend == InkBlend::multiply) add("style", "mix-blend-mode:multiply");

@@ -223,6 +223,7 @@ class Chainer {
         const PathLine& l = line(end);
         return lines_.edges[l.first_edge + (end % 2 == 0 ? 0 : l.edge_count - 1)];
     }
+    std::uint64_t end_edge(std::uint32_t end) const { return line(end).end_edges[end % 2]; }
     /// Whether two ends are both ends of a line so short that it would be closed to nothing.
     bool is_spot(std::uint32_t a, std::uint32_t b) const { return a / 2 == b / 2 && length_of(a) < 4 * kTogetherPx; }
 
@@ -265,20 +266,24 @@ class Chainer {
         std::sort(first, out.edges.end());
         out.edges.erase(std::unique(first, out.edges.end()), out.edges.end());
         chain.edge_count = out.edges.size() - chain.first_edge;
+        chain.end_edges = {end_edge(ends.front()), end_edge(EndLinks::other_end(ends.back()))};
         out.lines.push_back(chain);
     }
 
     /// Lines begin at their upper end, loops at their highest point, and run clockwise, as far as they have no dashes.
     void put_in_order(PathLines& result) const {
         const auto is_above = [](glm::dvec2 a, glm::dvec2 b) { return std::pair(a.y, a.x) < std::pair(b.y, b.x); };
-        for (const PathLine& l : result.lines) {
+        for (PathLine& l : result.lines) {
             throw_if_interrupted();
             const VectorStyle& style = result.styles[l.kind.style];
             if (!style.dash_px.empty() || style.is_outline()) continue;
             const auto first = result.points.begin() + static_cast<std::ptrdiff_t>(l.first_point);
             const auto last = first + static_cast<std::ptrdiff_t>(l.point_count);
             if (!l.is_closed) {
-                if (!is_above(*first, *(last - 1))) std::reverse(first, last);
+                if (!is_above(*first, *(last - 1))) {
+                    std::reverse(first, last);
+                    std::swap(l.end_edges[0], l.end_edges[1]);
+                }
                 continue;
             }
             double area = 0;

@@ -1,6 +1,7 @@
 #include "output/paths/make_paths.h"
 
 #include <algorithm>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -68,6 +69,24 @@ void add_in_parts(VectorPath path, VectorDrawing& drawing) {
     }
 }
 
+/// Names the edges of a path. Of many, those at its ends, which go on behind or in front of a surface, and the least
+/// names: two paths that have most of their edges in common have most of these in common, too.
+void add_names(const PathLine& line, const std::vector<std::uint64_t>& edges, VectorPath& path,
+               VectorDrawing& drawing) {
+    path.first_edge = drawing.edges.size();
+    const auto first = edges.begin() + static_cast<std::ptrdiff_t>(line.first_edge);
+    if (line.edge_count <= kMostEdgeNames) {
+        drawing.edges.insert(drawing.edges.end(), first, first + static_cast<std::ptrdiff_t>(line.edge_count));
+        path.edge_count = line.edge_count;
+        return;
+    }
+    std::set<std::uint64_t> names(first, first + static_cast<std::ptrdiff_t>(kMostEdgeNames - line.end_edges.size()));
+    names.insert(line.end_edges.begin(), line.end_edges.end());
+    drawing.edges.insert(drawing.edges.end(), names.begin(), names.end());
+    path.edge_count = names.size();
+    path.unnamed_edges = line.edge_count - names.size();
+}
+
 }  // namespace
 
 std::string note_on_means(const VectorStats& stats) {
@@ -131,14 +150,12 @@ VectorDrawing vector_drawing_of(InkedLines inked, const FoundLines& found, const
         path.object = line.object;
         path.invisibility = line.invisibility;
         path.dash_phase_px = line.dash_phase_px;
-        path.first_edge = line.first_edge;
-        path.edge_count = line.edge_count;
+        add_names(line, lines.edges, path, drawing);
         path.start = fit_path(lines.points_of(line), line.is_closed, options.bounds, drawing.steps);
         path.step_count = drawing.steps.size() - path.first_step;
         add_in_parts(path, drawing);
         advance(1);
     }
-    drawing.edges = std::move(lines.edges);
     stats.paths = drawing.paths.size();
     stats.fit_s = watch.lap();
     return drawing;

@@ -128,6 +128,7 @@ void add_line(PathLine line, std::span<const glm::dvec2> places, std::uint64_t e
     }
     line.first_edge = paths.edges.size();
     line.edge_count = 1;
+    line.end_edges = {edge, edge};
     paths.edges.push_back(edge);
     paths.lines.push_back(line);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -33,6 +34,8 @@ struct PathLine {
     std::uint64_t chain = 0;                     ///< InkStroke::chain
     float dash_phase_px = 0;                     ///< where it begins in its pattern
     std::size_t first_edge = 0, edge_count = 0;  ///< in PathLines::edges
+    /// Names of the edges that its first and its last point lie on.
+    std::array<std::uint64_t, 2> end_edges = {};
 };
 
 /// The strokes of a picture on the way to paths.

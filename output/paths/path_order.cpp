@@ -137,6 +137,7 @@ class PathMerger {
         }
         if (other.object != path_.object) path_.object = 0;
         path_.invisibility = std::min(path_.invisibility, other.invisibility);
+        path_.unnamed_edges += other.unnamed_edges;
     }
     void turn_round() {
         VectorDrawing alone;

@@ -43,6 +43,9 @@ struct PathStep {
     glm::dvec2 a{0.0}, b{0.0};
 };
 
+/// A path that lies on more edges names this many.
+constexpr std::size_t kMostEdgeNames = 16;
+
 /// Some programs take no longer paths.
 constexpr std::size_t kMostPathSteps = 31999;
 
@@ -56,6 +59,7 @@ struct VectorPath {
     std::uint32_t object = 0;                    ///< in VectorDrawing::objects, from 1; 0: none
     std::uint8_t invisibility = 0;               ///< how many opaque surfaces are in front, at least
     std::size_t first_edge = 0, edge_count = 0;  ///< in VectorDrawing::edges
+    std::size_t unnamed_edges = 0;               ///< how many more edges it lies on
 };
 
 /// Paths that lie above or below those of other groups, one after the other.

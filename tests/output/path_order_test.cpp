@@ -157,6 +157,7 @@ TEST(PathOrder, MergingJoinsWhatMeets) {
             path.step_count = 1;
             path.first_edge = drawing.edges.size();
             path.edge_count = 1;
+            path.unnamed_edges = i;
             drawing.steps.push_back(step);
             drawing.edges.push_back(i);
             drawing.paths.push_back(path);
@@ -171,6 +172,7 @@ TEST(PathOrder, MergingJoinsWhatMeets) {
         ASSERT_EQ(drawing.paths.size(), 1u) << trial;
         EXPECT_EQ(drawing.paths[0].is_closed, is_ring);
         EXPECT_EQ(drawing.paths[0].edge_count, 12u);
+        EXPECT_EQ(drawing.paths[0].unnamed_edges, 66u);
         EXPECT_EQ(places_of(drawing), before);
     }
 }

@@ -203,6 +203,44 @@ TEST(VectorDrawings, PartsOfOneEdgeHaveOneName) {
     EXPECT_GE(both.size(), 2u);
 }
 
+/// A path along many edges names some of them, and always those that go on behind a surface.
+TEST(VectorDrawings, PathsOfManyEdgesNameTheirEnds) {
+    // Lines of a grid, whose edges differ in name, pass below a slab from side to side.
+    const std::string scene =
+        scene_with("eye=[2,6,4]\ntarget=[0,0,0]\n",
+                   "[[object]]\nshape='plane'\nname='grid'\nsize=[4,4]\ncolumns=50\nrows=50\n"
+                   "[[object]]\nshape='box'\nname='slab'\nsize=[2.6,0.1,2.6]\ntranslate=[0.013,0.5,0]\n");
+    std::string sheet = sheet_of("'polygon','border'", "width=1");
+    sheet += "[[set]]\nname='hidden'\nstyle='behind'\nqi=[1,255]\nclasses=['polygon']\n[style.behind]\nwidth=0.5\n";
+    ShadedScene shaded(scene, sheet, 3 * kWidth, 3 * kHeight);
+    const VectorDrawing drawing = drawing_of(shaded);
+    std::set<std::uint64_t> visible;
+    std::vector<std::set<std::uint64_t>> hidden;
+    for (const VectorGroup& group : drawing.groups) {
+        for (const VectorPath& path : drawing.paths_of(group)) {
+            if (path.object == 0 || drawing.objects[path.object - 1] != "grid") continue;
+            const auto names = drawing.edges_of(path);
+            EXPECT_LE(names.size(), kMostEdgeNames);
+            EXPECT_TRUE(path.unnamed_edges == 0 || names.size() >= kMostEdgeNames - 2);
+            if (!group.is_hidden) {
+                visible.insert(names.begin(), names.end());
+            } else if (path.unnamed_edges > 0) {
+                hidden.emplace_back(names.begin(), names.end());
+            }
+        }
+    }
+    ASSERT_GE(hidden.size(), 50u);
+    // At either side of the slab, but where a line is hidden from one edge on and not within it.
+    std::ptrdiff_t both = 0;
+    for (const std::set<std::uint64_t>& names : hidden) {
+        const auto count = std::count_if(names.begin(), names.end(), [&](auto name) { return visible.contains(name); });
+        EXPECT_GE(count, 1);
+        both += count >= 2 ? 1 : 0;
+    }
+    EXPECT_GE(both, static_cast<std::ptrdiff_t>(hidden.size()) * 9 / 10);
+    EXPECT_NE(svg_of(drawing).find("data-edge-count=\""), std::string::npos);
+}
+
 /// Names stay where the camera moves and objects come in another order.
 TEST(VectorDrawings, NamesOfEdgesAreStable) {
     const std::string a = "[[object]]\nshape='box'\nname='a'\n",
