@@ -16,6 +16,8 @@ namespace {
 
 /// Lines that are no farther apart run along each other, for more than kTwicePx.
 constexpr double kBesidePx = 0.25, kTwicePx = 1.5;
+/// Hidden lines are cut out where their ink touches that of what they run along, up to this distance.
+constexpr double kMostTouchPx = 8;
 /// The sine up to which two lines run the same way.
 constexpr double kParallelSine = 0.17;
 constexpr double kStepPx = 0.5, kMostReachPx = 2;
@@ -52,6 +54,8 @@ class Cleaner {
             };
             return key(a) < key(b);
         });
+        for (const VectorStyle& style : lines_.styles)
+            widest_px_ = std::max(widest_px_, static_cast<double>(style.width_px));
         keeps_.resize(lines_.lines.size());
         for (const std::uint32_t i : order) clean(i, lengths[i]);
         // In the order in which they came.
@@ -114,8 +118,18 @@ class Cleaner {
                 const double cross = way->x * part.way.y - way->y * part.way.x;
                 if (cross * cross >= kParallelSine * kParallelSine * part.square) return false;
             }
-            return part.square_distance(p) <= reach_px * reach_px && covers(part.line, number, way == nullptr);
+            const double reach = way == nullptr ? reach_px : beside_px(part.line, number);
+            return part.square_distance(p) <= reach * reach && covers(part.line, number, way == nullptr);
         });
+    }
+    /// How near a line must be to another one to run along it. A hidden line that blurs the edge of a visible one, or
+    /// fills the gaps of a pattern, says nothing.
+    double beside_px(std::uint32_t upper, std::uint32_t lower) const {
+        const PathLine &a = lines_.lines[upper], &b = lines_.lines[lower];
+        if (!b.kind.order.is_hidden || (a.kind.order.is_hidden && style_of(upper).dash_px.empty())) return kBesidePx;
+        const double touch_px =
+            0.5 * static_cast<double>(style_of(upper).width_px) + 0.5 * static_cast<double>(style_of(lower).width_px);
+        return std::clamp(touch_px, kBesidePx, kMostTouchPx);
     }
     /// Whether the pens of others that were kept pass over all points.
     bool is_covered(std::uint32_t number, std::span<const glm::dvec2> points) const {
@@ -143,6 +157,10 @@ class Cleaner {
     /// Finds the parts of a line that run along others.
     void find_twice(std::uint32_t number, std::span<const glm::dvec2> points) {
         twice_.clear();
+        double reach_px = kBesidePx;
+        if (lines_.lines[number].kind.order.is_hidden)
+            reach_px = std::clamp(0.5 * (widest_px_ + static_cast<double>(style_of(number).width_px)), kBesidePx,
+                                  kMostTouchPx);
         bool is_beside = false;
         double length = 0;  // of the part that is beside
         Place begin;
@@ -159,7 +177,7 @@ class Cleaner {
             const int steps = std::max(1, static_cast<int>(std::ceil(std::min(part_length / kStepPx, 1e6))));
             for (int k = 0; k < steps; ++k) {
                 const glm::dvec2 p = points[i] + way * ((k + 0.5) / steps);
-                if (is_near(number, p, kBesidePx, &unit)) {
+                if (is_near(number, p, reach_px, &unit)) {
                     if (!is_beside) {
                         begin = {i, static_cast<double>(k) / steps};
                         length = 0;
@@ -224,6 +242,7 @@ class Cleaner {
 
     const PathLines& lines_;
     PartGrid grid_;
+    double widest_px_ = 0;
     PathLines result_;
     std::unordered_set<std::uint64_t> long_chains_;  // that a line longer than a crumb is of
     std::vector<std::vector<Kept>> keeps_;           // of each line

@@ -240,6 +240,26 @@ TEST(CleanPaths, CrumbsOfDashedLinesGo) {
     }
 }
 
+/// The lower edge of a thin plate, whose dashes would blur the upper one: hidden lines go where ink touches ink.
+TEST(CleanPaths, HiddenLinesBesideOthersGo) {
+    for (int what = 0; what < 6; ++what) {
+        Lines lines;
+        lines.all().styles[0].width_px = 3;
+        lines.all().styles.push_back(lines.all().styles[0]);
+        lines.all().styles[1].width_px = 1.5f;
+        lines.all().styles[1].dash_px = {18, 4.5f};
+        const double touch_px = what < 3 ? 2.25 : 1.5;
+        const double off = touch_px + (what % 3 == 1 ? 0.1 : -0.1);
+        PathLine& upper = lines.add({{10, 20}, {90, 20}});
+        if (what >= 3) upper.kind.style = 1, upper.kind.order.is_hidden = true;
+        PathLine& lower = lines.add({{20, 20 + off}, {80, 20 + off}});
+        lower.kind.style = 1;
+        lower.kind.order.is_hidden = what != 2;
+        if (what == 5) lines.all().lines[0].kind.order.is_hidden = lines.all().lines[1].kind.order.is_hidden = false;
+        EXPECT_EQ(lines.cleaned().lines.size(), what % 3 == 0 ? 1u : 2u) << what;
+    }
+}
+
 /// Hidden lines leave no specks: neither beside other lines, nor of a chain that has longer parts, nor with dashes.
 TEST(CleanPaths, CrumbsOfHiddenLinesGo) {
     for (const bool is_hidden : {false, true}) {
