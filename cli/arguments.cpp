@@ -105,7 +105,9 @@ void add_scene_options(CLI::App& app, Texts& t) {
         "--crease-angle", t.crease,
         "angle between polygons from which on they meet in a crease, degrees (default 40); LOW,HIGH: creases fade in "
         "between the two");
-    app.add_option("--hidden", t.hidden, "how occluded lines are drawn: none (default), solid, dashed");
+    app.add_option("--hidden", t.hidden,
+                   "how occluded lines are drawn: none (default), solid, dashed; beside a style sheet, which says it "
+                   "itself, none");
     app.add_option("--style", t.style,
                    "style sheet that says which lines are drawn and how: a name (see burin styles), or a file .toml");
     app.add_option("--frame", t.frame, "number of the frame, for `frame` and `time` in style sheets (default 0)");

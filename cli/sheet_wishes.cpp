@@ -38,7 +38,21 @@ void set_parameter(StyleSheet& sheet, const std::string& name, const std::string
     parameter.value = value;
 }
 
-/// Leaves visible lines only.
+/// What of a sheet draws hidden lines, and what would have it draw all of them.
+std::string how_hidden_lines_are_chosen(const StyleSheet& sheet) {
+    for (const LineSet& set : sheet.sets) {
+        if (!set.is_enabled || set.qi[1] == 0) continue;
+        const std::string& style = sheet.styles[set.style].name;
+        return "in " + sheet.name + " the set '" + set.name + "' draws them in the style '" + style +
+               "': --set 'style.set." + set.name + ".qi=[" + std::to_string(std::min(set.qi[0], 1)) +
+               ", 255]' draws those behind any number of surfaces, --set style." + style +
+               ".KEY=VALUE changes how they look";
+    }
+    return "a set with qi = [1, 255] would draw them, and " + sheet.name + " has none";
+}
+
+}  // namespace
+
 void take_hidden_lines_away(StyleSheet& sheet) {
     for (LineSet& set : sheet.sets) {
         if (set.qi[0] > 0) {
@@ -49,12 +63,11 @@ void take_hidden_lines_away(StyleSheet& sheet) {
     }
 }
 
-}  // namespace
-
 std::shared_ptr<const StyleSheet> sheet_as_wished(StyleSheet sheet, const Arguments& a, const SheetContext& context) {
     if (a.lines) throw UsageError("--lines: the style sheet says which lines are drawn; remove one of the two");
     if (a.hidden && *a.hidden != HiddenStyle::none) {
-        throw UsageError("--hidden: the style sheet says how hidden lines are drawn; only none can stand beside it");
+        throw UsageError("--hidden: the style sheet says how hidden lines are drawn; only none can stand beside it; " +
+                         how_hidden_lines_are_chosen(sheet));
     }
     if (a.line_width_px) set_parameter(sheet, "width", "--line-width", StyleValue::of(*a.line_width_px), context);
     if (!a.line_color.empty()) {

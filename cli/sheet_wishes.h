@@ -14,4 +14,7 @@ namespace burin {
 std::shared_ptr<const StyleSheet> sheet_as_wished(StyleSheet sheet, const Arguments& arguments,
                                                   const SheetContext& context);
 
+/// Leaves visible lines only.
+void take_hidden_lines_away(StyleSheet& sheet);
+
 }  // namespace burin

@@ -228,6 +228,11 @@ TEST_F(Styles, OnlyTheABufferDrawsThem) {
     expect_usage_error({"-m", "patel"}, "--style: method patel draws no style sheets", "scene.toml");
     expect_usage_error({"--style", "mine.toml", "--hidden", "dashed"}, "--hidden: the style sheet says how");
     expect_usage_error({"--style", "mine.toml", "--hidden", "solid"}, "only none can stand beside it");
+    // It says how to have them, too.
+    expect_usage_error({"--style", "pencil", "--hidden", "solid"}, "a set with qi = [1, 255] would draw them, and");
+    expect_usage_error({"--style", "technical", "--hidden", "solid"},
+                       "in technical the set 'hidden' draws them in the style 'dashed': --set 'style.set.hidden.qi=[1, "
+                       "255]' draws those behind any number of surfaces, --set style.dashed.KEY=VALUE changes how");
     expect_usage_error({"--style", "mine.toml", "--lines", "crease"}, "--lines: the style sheet says which");
     const ProgramResult compare =
         run_burin(folder_.path(), {"compare", "cube.obj", "-o", "compared", "-r", "20x15", "--style", "mine.toml"});
