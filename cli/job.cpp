@@ -127,14 +127,26 @@ void set_picture_size(const Arguments& a, SceneDescription& scene) {
     }
 }
 
-/// Notes a scene that does not fit on the paper at the scale that is wanted.
-void note_if_cut_off(const Scene& scene, const PointSource& points, CameraSettings camera, double aspect) {
-    if (!scene.picture.paper.scale || camera.to_world || camera.eye) return;
+/// A scene that fills less than this of the space on paper is hardly seen: its unit may be another one.
+constexpr double kTiny = 0.05;
+
+void note_if_tiny(double scale, double fitting_scale) {
+    if (scale >= kTiny * fitting_scale) return;
+    std::fprintf(stderr,
+                 "burin: note: at %s the drawing fills less than a twentieth of the paper's width and height; %s would "
+                 "fit (--unit says the unit of the scene)\n",
+                 text_of_scale(scale).c_str(), text_of_scale(round_scale_down(fitting_scale)).c_str());
+}
+
+/// Notes a scene that does not fit on the paper at the scale that is wanted, or is lost on it.
+void note_on_scale(const Scene& scene, const PointSource& points, CameraSettings camera, double aspect) {
+    if (!scene.picture.paper.scale || camera.to_world) return;
     const double height = *camera.height;
     camera.height.reset();
     const double needed = camera.fit * resolve_camera(camera, points, aspect).height;
-    if (needed <= height) return;
     const double fitting = *scene.picture.paper.scale * height / needed;
+    note_if_tiny(*scene.picture.paper.scale, fitting);
+    if (needed <= height || camera.eye) return;  // a view from a given place may be one of a detail
     std::fprintf(stderr, "burin: note: at %s the view reaches beyond the %s; %s would fit\n",
                  text_of_scale(*scene.picture.paper.scale).c_str(),
                  scene.picture.paper.margin_mm == std::array<double, 4>{} ? "paper" : "margins",
@@ -284,7 +296,7 @@ FittedCamera fitted_camera(const Scene& scene, const std::vector<CameraSettings>
     const CameraSettings settings = camera_settings(first, scene.picture, a);
     const double aspect = static_cast<double>(scene.picture.width) / scene.picture.height;
     return naming_camera(settings, a, [&] {
-        if (!a.quiet) note_if_cut_off(scene, points, settings, aspect);
+        if (!a.quiet) note_on_scale(scene, points, settings, aspect);
         return FittedCamera(settings, points, aspect, turntable);
     });
 }
@@ -326,7 +338,11 @@ std::vector<ViewOnSheet> views_of(const Scene& scene, const PointSource& points,
     const glm::dvec3 up = a.up.value_or(scene.cameras.front().up.value_or(glm::dvec3(0, 1, 0)));
     if (!(glm::length(up) > 0)) throw UsageError("--up: the vector is zero; give a direction");
     try {
-        return views_on_sheet(a.views, a.view_projection, scene.picture, up, points);
+        double fitting_scale = 0;
+        std::vector<ViewOnSheet> views =
+            views_on_sheet(a.views, a.view_projection, scene.picture, up, points, &fitting_scale);
+        if (scene.picture.paper.scale && !a.quiet) note_if_tiny(*scene.picture.paper.scale, fitting_scale);
+        return views;
     } catch (const InputError& error) {
         throw InputError(a.input + ": " + error.what());
     }

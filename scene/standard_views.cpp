@@ -136,8 +136,8 @@ std::optional<StandardView> standard_view_named(std::string_view name) {
 }
 
 std::vector<ViewOnSheet> views_on_sheet(const std::vector<StandardView>& views, ViewProjection projection,
-                                        const PictureSettings& picture, const glm::dvec3& up,
-                                        const PointSource& points) {
+                                        const PictureSettings& picture, const glm::dvec3& up, const PointSource& points,
+                                        double* fitting_scale) {
     const glm::dmat3 front = front_axes(up);
     std::vector<glm::dmat3> axes;
     std::vector<glm::ivec2> cells, others;
@@ -169,9 +169,10 @@ std::vector<ViewOnSheet> views_on_sheet(const std::vector<StandardView>& views, 
     const double gap = std::min(kGapMm, 0.05 * std::min(space.x, space.y));
     const glm::dvec2 room = space - glm::dvec2(columns.gaps_mm(gap), rows.gaps_mm(gap));
     const double fitting = std::min(room.x / size.x, room.y / size.y);
+    const double unit_mm = picture.paper.unit_mm.value_or(1);
+    if (fitting_scale != nullptr) *fitting_scale = fitting / unit_mm;
     double mm_per_unit = kFit * fitting;
     if (picture.paper.scale) {
-        const double unit_mm = picture.paper.unit_mm.value_or(1);
         mm_per_unit = *picture.paper.scale * unit_mm;
         if (mm_per_unit > fitting) {
             throw UsageError("--scale: at " + text_of_scale(*picture.paper.scale) + " the views need " +

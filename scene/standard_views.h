@@ -28,9 +28,9 @@ struct ViewOnSheet {
 /// Places views in rows and columns within the margins of a picture, aligned and at one scale: the picture's, or the
 /// largest at which they fit. The front is what looks along -Z (along +Y where Z is up). Each camera's area is its
 /// view's cell, which may reach into the margins. Throws InputError if the scene has no extent, UsageError if views do
-/// not fit at the picture's scale.
+/// not fit at the picture's scale. `fitting_scale`: gets the largest one at which they do.
 std::vector<ViewOnSheet> views_on_sheet(const std::vector<StandardView>& views, ViewProjection projection,
-                                        const PictureSettings& picture, const glm::dvec3& up,
-                                        const PointSource& points);
+                                        const PictureSettings& picture, const glm::dvec3& up, const PointSource& points,
+                                        double* fitting_scale = nullptr);
 
 }  // namespace burin

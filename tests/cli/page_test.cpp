@@ -95,6 +95,19 @@ TEST(Paper, ScaleIsExact) {
     const ProgramResult cut = render(folder, front_view({"--paper", "A4", "--scale", "200:1"}));
     EXPECT_EQ(cut.status, 0);
     EXPECT_EQ(cut.err, "burin: note: at 200:1 the view reaches beyond the paper; 105:1 would fit\n");
+    // A part in metres, as if it were in millimetres.
+    const std::string tiny =
+        " the drawing fills less than a twentieth of the paper's width and height; 105:1 would fit (--unit says the "
+        "unit of the scene)\n";
+    EXPECT_EQ(render(folder, front_view({"--paper", "A4", "--scale", "5.2:1"})).err, "burin: note: at 5.2:1" + tiny);
+    EXPECT_EQ(render(folder, front_view({"--paper", "A4", "--scale", "5.3:1"})).err, "");
+    const Arguments from_a_place = {"--set", "camera.projection=orthographic", "--set", "camera.eye=[0,0,9]"};
+    Arguments placed = {"--paper", "A4", "--scale", "1:1"};
+    placed.insert(placed.end(), from_a_place.begin(), from_a_place.end());
+    EXPECT_TRUE(has(render(folder, placed).err, "less than a twentieth"));
+    EXPECT_EQ(render(folder, {"--paper", "A4", "--scale", "5.2:1", "--views", "front"}).err,
+              "burin: note: at 5.2:1" + tiny);
+    EXPECT_EQ(render(folder, {"--paper", "A4", "--scale", "5.3:1", "--views", "front"}).err, "");
 }
 
 /// Models are in mm, glTF files in metres, and --unit knows better.
