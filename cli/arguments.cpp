@@ -124,7 +124,8 @@ void add_paper_options(CLI::App& app, Texts& t) {
     app.add_option("--scale", t.page.scale, "scale of an orthographic view on paper, such as 1:2 (default: fitted)");
     app.add_option("--unit", t.page.unit, "unit of the world for --scale: mm (default; m for glTF), cm, m, in or ft");
     app.add_option("--views", t.page.views,
-                   "views on one sheet, comma separated: front back top bottom left right iso");
+                   "views on one sheet, comma separated: front back top bottom left right iso; iso leaves hidden lines "
+                   "out, iso+hidden has them, front-hidden not");
     app.add_option("--projection", t.page.projection, "how these stand: first angle (default) or third");
     app.add_option("--page", t.page.page, "paper, look and kind of file in one: iso128, patent, plotter or laser");
 }

@@ -51,8 +51,9 @@ struct Arguments {
     std::optional<double> lens_radius, focus;
     std::optional<double> dpi;
     PagePreset page = PagePreset::none;
-    bool has_style_of_page = false;   ///< no other was given
-    std::vector<StandardView> views;  ///< on one sheet; empty: one, through a camera
+    bool has_style_of_page = false;     ///< no other was given
+    std::vector<StandardView> views;    ///< on one sheet; empty: one, through a camera
+    std::vector<bool> hidden_in_views;  ///< of each: whether it has hidden lines, if the look draws any
     ViewProjection view_projection = ViewProjection::first;
     std::optional<glm::dvec2> paper_mm;
     std::optional<std::array<double, 4>> margin_mm;  ///< top, right, bottom, left

@@ -342,6 +342,14 @@ std::vector<ViewOnSheet> views_of(const Scene& scene, const PointSource& points,
         std::vector<ViewOnSheet> views =
             views_on_sheet(a.views, a.view_projection, scene.picture, up, points, &fitting_scale);
         if (scene.picture.paper.scale && !a.quiet) note_if_tiny(*scene.picture.paper.scale, fitting_scale);
+        bool has_hidden_lines = false;
+        for (std::size_t i = 0; i < views.size(); ++i) {
+            views[i].has_hidden_lines = a.hidden_in_views[i];
+            has_hidden_lines = has_hidden_lines || a.hidden_in_views[i];
+        }
+        if (!has_hidden_lines && a.hidden && *a.hidden != HiddenStyle::none && !a.quiet)
+            std::fprintf(stderr,
+                         "burin: note: --hidden draws nothing: iso leaves hidden lines out; iso+hidden has them\n");
         return views;
     } catch (const InputError& error) {
         throw InputError(a.input + ": " + error.what());

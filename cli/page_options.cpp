@@ -64,13 +64,24 @@ void fill_paper(const PageTexts& t, Arguments& a) {
     }
 }
 
+/// Behind the name of a view.
+constexpr std::string_view kWithHidden = "+hidden", kWithoutHidden = "-hidden";
+
+bool take_end(std::string_view& text, std::string_view end) {
+    if (!text.ends_with(end)) return false;
+    text.remove_suffix(end.size());
+    return true;
+}
+
 void fill_views(const PageTexts& t, Arguments& a) {
     if (!t.projection.empty() && t.projection != "first" && t.projection != "third")
         fail("--projection", "must be first or third");
     if (!t.projection.empty() && t.views.empty()) fail("--projection", "needs --views");
     a.view_projection = t.projection == "third" ? ViewProjection::third : ViewProjection::first;
     if (t.views.empty()) return;
-    for (const std::string_view name : split(t.views, ',')) {
+    for (const std::string_view wish : split(t.views, ',')) {
+        std::string_view name = wish;
+        const bool asks_for_hidden = take_end(name, kWithHidden), leaves_hidden = take_end(name, kWithoutHidden);
         const auto view = standard_view_named(name);
         if (!view) {
             std::string known;
@@ -79,7 +90,10 @@ void fill_views(const PageTexts& t, Arguments& a) {
         }
         if (std::find(a.views.begin(), a.views.end(), *view) != a.views.end())
             fail("--views", std::string(name) + " is given more than once");
+        if (asks_for_hidden && a.hidden == HiddenStyle::none)
+            fail("--views", std::string(wish) + " cannot stand beside --hidden none; remove one");
         a.views.push_back(*view);
+        a.hidden_in_views.push_back(asks_for_hidden || (!leaves_hidden && !is_pictorial(*view)));
     }
     const auto refuse = [](bool is_given, const char* option) {
         if (is_given) fail("--views", std::string("cannot stand beside ") + option + "; remove one");

@@ -15,6 +15,8 @@ struct PictureSettings;
 enum class StandardView : std::uint8_t { front, back, top, bottom, left, right, iso };
 constexpr std::string_view kStandardViewNames[] = {"front", "back", "top", "bottom", "left", "right", "iso"};
 std::optional<StandardView> standard_view_named(std::string_view name);
+/// Whether a view shows three sides at once. Such views have no hidden lines unless they are asked for.
+constexpr bool is_pictorial(StandardView view) { return view == StandardView::iso; }
 
 /// Where views stand around that from the front: `first`, each on the side away from where it looks from, as in Europe;
 /// `third`, on the side that it looks from, as in America.
@@ -23,6 +25,7 @@ enum class ViewProjection : std::uint8_t { first, third };
 struct ViewOnSheet {
     StandardView view = StandardView::front;
     Camera camera;
+    bool has_hidden_lines = true;  ///< as the look draws them; else none
 };
 
 /// Places views in rows and columns within the margins of a picture, aligned and at one scale: the picture's, or the

@@ -166,6 +166,9 @@ TEST(Paper, WrongUse) {
         {{"-r", "500"}, "--size: must be WIDTHxHEIGHT in pixels, got '500'"},
         {{"--projection", "first"}, "--projection: needs --views"},
         {{"--views", "front,side"}, "--views: unknown view 'side'; known are front, back"},
+        {{"--views", "front+x"}, "--views: unknown view 'front+x'"},
+        {{"--views", "front,front-hidden"}, "--views: front is given more than once"},
+        {{"--views", "iso+hidden", "--hidden", "none"}, "--views: iso+hidden cannot stand beside --hidden none"},
         {{"--views", "front,front"}, "--views: front is given more than once"},
         {{"--views", "front", "--eye", "1,2,3"}, "--views: cannot stand beside --eye"},
         {{"--views", "front,top", "--paper", "A5", "--scale", "100:1"},
@@ -230,7 +233,7 @@ TEST(Pages, Iso128) {
 TEST(Pages, Iso128HasTwoWidths) {
     const TemporaryFolder folder;
     folder.write("a.toml", "[[object]]\nshape = 'box'\n[[object]]\nshape = 'box'\nsize = [0.5, 0.5, 0.5]\n");
-    const Arguments look = {"--page", "iso128", "-r", "2970", "--views", "front,top,iso", "-q"};
+    const Arguments look = {"--page", "iso128", "-r", "2970", "--views", "front,top,iso+hidden", "-q"};
     Arguments all = {"render", "a.toml", "-o", "a.svg"};
     all.insert(all.end(), look.begin(), look.end());
     ASSERT_EQ(run_burin(folder.path(), all).err, "");
@@ -349,6 +352,45 @@ TEST(Views, OnOneSheet) {
         three.insert(three.end(), {"-j", "3"});
         EXPECT_EQ(drawn(folder, one, name), drawn(folder, three, name)) << name;
     }
+}
+
+/// Views that show three sides at once leave hidden lines out, unless they are asked for.
+TEST(Views, PictorialOnesHaveNoHiddenLines) {
+    const TemporaryFolder folder;
+    const auto hidden = [&](const std::string& views, const Arguments& look) {
+        Arguments all = {"--views", views, "--paper", "A4", "-r", "600"};
+        all.insert(all.end(), look.begin(), look.end());
+        const std::string svg = drawn(folder, all);
+        std::string found;
+        for (const std::string view : {"front", "top", "iso"}) {
+            EXPECT_EQ(has(svg, "id=\"visible-" + view + "-s"), has(views, view)) << view;
+            if (has(svg, "id=\"hidden-" + view + "-s")) found += view + " ";
+        }
+        return found;
+    };
+    // From the front and from above, what is hidden of a cube lies behind what is seen: so it is asked for a slant.
+    for (const Arguments& look : {Arguments{"--hidden", "dashed"}, {"--page", "patent"}, {"--page", "iso128"}}) {
+        Arguments slanted = look;
+        slanted.insert(slanted.end(), {"--up", "0.1,1,0.2"});
+        EXPECT_EQ(hidden("front,top,iso", slanted), "front top ") << look[1];
+        EXPECT_EQ(hidden("front,top,iso+hidden", slanted), "front top iso ") << look[1];
+        EXPECT_EQ(hidden("front-hidden,top,iso-hidden", slanted), "top ") << look[1];
+        EXPECT_EQ(hidden("iso", look), "");
+    }
+    // As pixels, too.
+    const Arguments paper = {"--paper", "A4", "-r", "600"};
+    const auto picture = [&](Arguments options) {
+        options.insert(options.end(), paper.begin(), paper.end());
+        return drawn(folder, options, "out.png");
+    };
+    const std::string without = picture({"--views", "iso", "--hidden", "none"});
+    EXPECT_EQ(picture({"--views", "iso", "--hidden", "solid"}), without);
+    EXPECT_NE(picture({"--views", "iso+hidden", "--hidden", "solid"}), without);
+    // A view without them leaves the next one alone.
+    EXPECT_EQ(picture({"--views", "iso,front+hidden", "--hidden", "solid"}),
+              picture({"--views", "iso,front", "--hidden", "solid"}));
+    EXPECT_EQ(render(folder, {"--views", "iso", "--hidden", "solid"}).err,
+              "burin: note: --hidden draws nothing: iso leaves hidden lines out; iso+hidden has them\n");
 }
 
 /// Pixels and paths are at the same places on paper.
