@@ -116,7 +116,7 @@ class HaloCutter {
         const std::span<const InkPoint> points = lines_.points_of(stroke);
         bool was_erased = is_erased(stroke, points.front());
         HaloPlace begin, before;
-        bool is_cut = was_erased;
+        bool is_cut = was_erased, begins_at_halo = was_erased;
         double at_px = 0, begin_px = 0;
         for (std::size_t i = 0; i + 1 < points.size(); ++i) {
             if (i % kInterruptItems == 0) throw_if_interrupted();
@@ -134,9 +134,13 @@ class HaloCutter {
                     }
                     const HaloPlace border{i, is ? low : high};
                     if (is) {
-                        add(number, begin, border, begin_px, out);
+                        // What is no longer than wide between two halos is a dot and no line.
+                        const double left_px = at_px + border.share * length - begin_px;
+                        if (!begins_at_halo || left_px > static_cast<double>(point_at(points, border).width_px))
+                            add(number, begin, border, begin_px, out);
                     } else {
                         begin = border;
+                        begins_at_halo = true;
                         begin_px = at_px + border.share * length;
                     }
                     is_cut = true;

@@ -323,6 +323,22 @@ TEST(CutHalos, LinesFarBehindEndBesideThem) {
     }
 }
 
+/// Between two halos there are lines, no dots.
+TEST(CutHalos, LeaveNoDots) {
+    // Of what is between, each halo takes 5 pixels; the pen is 2 wide.
+    for (const double apart : {10.5, 11.9, 12.1, 14.0}) {
+        InkedLines lines;
+        for (const double x : {40.0, 40 + apart}) {
+            add_stroke(lines, {x, 10}, {x, 90}, 2, 1);
+            lines.strokes.back().halo_px = 3;
+        }
+        add_stroke(lines, {10, 50}, {90, 50}, 2, 0.5f);
+        Projection projection;
+        projection.focal_px = 1000;
+        EXPECT_EQ(with_halos_cut(lines, projection, kArea).strokes.size(), apart > 12 ? 5u : 4u) << apart;
+    }
+}
+
 /// A line that two sets draw, one over the other, is not behind itself, whatever rounding says of its depth.
 TEST(CutHalos, OtherStrokesOfTheLineStay) {
     InkedLines lines;
