@@ -114,13 +114,13 @@ class EdgeLineFinder::Rules {
           low_(to_subpixels(glm::dvec2(region.x0, region.y0))),
           high_(to_subpixels(glm::dvec2(region.x1, region.y1))) {}
 
-    void visit(SurfaceId s, HalfEdge h, std::vector<WholeLine>& lines) const {
+    void visit(SurfaceId s, HalfEdge h, std::vector<WholeLine>& lines, bool walls) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
         const HalfEdge g = mesh.next_on_edge[h];
         if (g == h) {
             visit_border(s, h, lines);
         } else if (mesh.next_on_edge[g] == h) {
-            visit_pair(s, h, g, lines);
+            visit_pair(s, h, g, lines, walls);
         } else {
             visit_ring(s, h, lines);
         }
@@ -147,7 +147,7 @@ class EdgeLineFinder::Rules {
         return screen_.vertices(instance)[vertex].x != ScreenVertex::kOffScreen;
     }
 
-    void visit_pair(SurfaceId s, HalfEdge h, HalfEdge g, std::vector<WholeLine>& lines) const {
+    void visit_pair(SurfaceId s, HalfEdge h, HalfEdge g, std::vector<WholeLine>& lines, bool walls) const {
         const Mesh& mesh = surfaces_.mesh_of(s);
         const std::uint32_t a = start_of(mesh, h), b = end_of(mesh, h);
         LineClassSet classes;
@@ -171,7 +171,8 @@ class EdgeLineFinder::Rules {
             }
             if (front_side != 0) {
                 classes |= LineClass::silhouette;
-            } else if (const HalfEdge at_wall = half_edge_at_wall(s.instance, h, g); at_wall != kNoHalfEdge) {
+            } else if (const HalfEdge at_wall = walls ? half_edge_at_wall(s.instance, h, g) : kNoHalfEdge;
+                       at_wall != kNoHalfEdge) {
                 classes |= LineClass::silhouette;  // the wall may lie on either side, and is not in front
                 front_side = sides_.side_at(s.instance, at_wall, a, b);
             }
@@ -383,7 +384,9 @@ EdgeLineFinder::EdgeLineFinder(const Frame& frame, const ScreenSurfaces& screen,
 
 EdgeLineFinder::~EdgeLineFinder() = default;
 
-void EdgeLineFinder::find(SurfaceId s, HalfEdge h, std::vector<WholeLine>& lines) const { rules_->visit(s, h, lines); }
+void EdgeLineFinder::find(SurfaceId s, HalfEdge h, std::vector<WholeLine>& lines, bool walls) const {
+    rules_->visit(s, h, lines, walls);
+}
 
 void EdgeLineFinder::find_loose(std::uint32_t instance, HalfEdge number, std::vector<WholeLine>& lines) const {
     rules_->visit_loose(instance, number, lines);

@@ -33,7 +33,8 @@ class EdgeLineFinder {
     ~EdgeLineFinder();
 
     /// Adds an edge of triangle `s` if it is a line and touches the region; of a border, the parts that are no seams.
-    void find(SurfaceId s, HalfEdge h, std::vector<WholeLine>& lines) const;
+    /// Without `walls`, which take longest to tell, contours in front of walls seen edge-on are not found.
+    void find(SurfaceId s, HalfEdge h, std::vector<WholeLine>& lines, bool walls = true) const;
     /// Adds a loose edge of an instance, by its number (Mesh::loose_number()), if it touches the region.
     void find_loose(std::uint32_t instance, HalfEdge number, std::vector<WholeLine>& lines) const;
 

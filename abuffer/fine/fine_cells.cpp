@@ -9,9 +9,8 @@
 namespace burin {
 namespace {
 
-/// A block is cut into at most kMostCells cells along each side, so that about kTrianglesPerCell triangles are in one,
-/// or kFewTrianglesPerCell where there are more than kManyPairs pairs of a line and a triangle.
-constexpr int kMostCells = 32;
+/// A block is cut into cells so that about kTrianglesPerCell triangles are in one, or kFewTrianglesPerCell where there
+/// are more than kManyPairs pairs of a line and a triangle.
 constexpr std::size_t kTrianglesPerCell = 512, kFewTrianglesPerCell = 128, kManyPairs = std::size_t{1} << 18;
 /// For no more lines than kFewLines cells are not worth it, unless there are more than kMostForFewLines triangles.
 constexpr std::size_t kFewLines = 12, kMostForFewLines = 1024;

@@ -19,9 +19,14 @@ class FineCells {
   public:
     FineCells(const ScreenSurfaces& screen, const TileKernels& kernels) : screen_(screen), kernels_(kernels) {}
 
+    /// A block is cut into at most this many cells along each side.
+    static constexpr int kMostCells = 32;
+
     /// `triangles` must stay. `corner`: of the block, in 1/256 pixel. `line_count`: how many lines will be looked at
     /// there.
     void set(const std::vector<CrossedTriangle>& triangles, glm::ivec2 corner, std::size_t line_count);
+    /// What triangles_per_cell() will not be below for so many triangles, however small they are.
+    static std::size_t least_per_cell(std::size_t triangles) { return triangles / (kMostCells * kMostCells); }
     /// How many triangles are in a cell, on average. Cells are as small as they can be where there are very many pairs
     /// of a line and a triangle.
     std::size_t triangles_per_cell() const {

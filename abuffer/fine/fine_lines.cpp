@@ -9,6 +9,7 @@
 #include "abuffer/fine/covering_triangles.h"
 #include "abuffer/fine/drawn_parts.h"
 #include "abuffer/fine/fine_cells.h"
+#include "abuffer/fine/heaps.h"
 #include "abuffer/hiding/contacts.h"
 #include "abuffer/screen/edge_on_screen.h"
 #include "abuffer/screen/sampling.h"
@@ -23,22 +24,10 @@ constexpr double kShortestPiecePx = 1.0 / 32;
 /// How exactly the place is found where a fold begins. Pixels.
 constexpr double kWidthStepPx = 1.0 / 32;
 constexpr double kFarthestDepth = 1e300;
-/// The most pairs of an edge and a triangle near it in one block: if there are more, as in a heap of very many
-/// surfaces, lines are left to the samples, for time would grow with the square.
-constexpr std::size_t kMostLooks = std::size_t{1} << 22;
-/// Where more than kManyInCell triangles lie over each other, cells do not tell them apart; each pair is looked at more
-/// closely, and far fewer are too many: meshes of small triangles and piles of a few hundred large ones stay far below.
-constexpr std::size_t kManyInCell = 256, kMostLooksInHeap = std::size_t{1} << 18;
 /// In a block with more candidates, those behind others on the same straight line are left out.
 constexpr std::size_t kFewCandidates = 12;
 /// What rounding does to nearness, as part of what counts as level.
 constexpr double kRoundingOfNearness = 1.0 / 64;
-
-/// Whether lines in a block are few enough to be compared one by one with this many triangles near each. If they are
-/// not, they are not with more triangles either.
-bool are_few(std::size_t lines, std::size_t triangles_per_line) {
-    return lines * triangles_per_line <= (triangles_per_line > kManyInCell ? kMostLooksInHeap : kMostLooks);
-}
 
 }  // namespace
 
@@ -367,6 +356,7 @@ class FineLines::BlockClipper {
 FineLines::FineLines(const Frame& frame, const ScreenSurfaces& screen, const TriangleBins& bins,
                      const TileKernels& kernels, PixelRect region, bool draws_each, KnownBorders& known_borders)
     : screen_(screen),
+      bins_(bins),
       draws_each_(draws_each),
       grid_(samples_per_pixel_of(frame)),
       // The last blocks reach half a sample beyond the region (SampleBlocks).
@@ -378,7 +368,10 @@ FineLines::FineLines(const Frame& frame, const ScreenSurfaces& screen, const Tri
 FineLines::~FineLines() = default;
 
 void FineLines::find(std::size_t tile, std::span<const FinePart> parts, std::vector<LinePiece>& pieces) {
-    find_candidates(parts);
+    heaps_.clear();
+    if (may_have_heaps(bins_, tile, parts)) note_heaps(tile, parts);
+    constexpr bool kWithWalls = true;
+    find_candidates(parts, kWithWalls);
     if (candidates_.empty()) return;
     blocks_.fill(tile, candidates_);
     for (std::size_t block = 0; block < blocks_.count(); ++block) {
@@ -386,10 +379,40 @@ void FineLines::find(std::size_t tile, std::span<const FinePart> parts, std::vec
         const std::span<const std::uint32_t> numbers = blocks_.candidates(block);
         const FinePart& any = candidates_[numbers.front()].part;
         const glm::ivec2 corner(glm::dvec2(grid_.begin(any.block_x), grid_.begin(any.block_y)));
-        if (is_left_to_samples(block, corner)) continue;
+        if (is_heap(block) || is_left_to_samples(block, corner)) continue;
         clipper_->set_triangles(blocks_.triangles(block), corner, numbers.size());
         find_in_block(block, pieces);
     }
+}
+
+/// Notes blocks that are heaps already by lines that are told soon: most parts of meshes with thousands of triangles in
+/// a pixel may be walls, and to tell which are would take longer than all else.
+void FineLines::note_heaps(std::size_t tile, std::span<const FinePart> parts) {
+    constexpr bool kWithWalls = false;
+    find_candidates(parts, kWithWalls);
+    if (candidates_.empty()) return;
+    blocks_.fill(tile, candidates_);
+    std::vector<glm::ivec2> heaps;
+    for (std::size_t block = 0; block < blocks_.count(); ++block) {
+        const FinePart& any = candidates_[blocks_.candidates(block).front()].part;
+        if (is_heap(block)) heaps.emplace_back(any.block_x, any.block_y);
+    }
+    heaps_ = std::move(heaps);
+}
+
+bool FineLines::is_in_heap(const FinePart& part) const {
+    return std::find(heaps_.begin(), heaps_.end(), glm::ivec2(part.block_x, part.block_y)) != heaps_.end();
+}
+
+bool FineLines::has_loose(std::size_t block) const {
+    const std::span<const std::uint32_t> numbers = blocks_.candidates(block);
+    return std::any_of(numbers.begin(), numbers.end(), [&](std::uint32_t i) { return candidates_[i].line.is_loose(); });
+}
+
+/// Whether there are too many triangles for each line in a block however small they are: so without a look at them.
+bool FineLines::is_heap(std::size_t block) const {
+    return !are_few(blocks_.candidates(block).size(), FineCells::least_per_cell(blocks_.triangles(block).size())) &&
+           !has_loose(block);
 }
 
 /// Whether so many triangles lie over all of a block that there are too many for each line, whatever cells it is cut
@@ -398,9 +421,7 @@ bool FineLines::is_left_to_samples(std::size_t block, glm::ivec2 corner) const {
     const std::span<const std::uint32_t> numbers = blocks_.candidates(block);
     const std::vector<CrossedTriangle>& triangles = blocks_.triangles(block);
     return !are_few(numbers.size(), triangles.size()) &&
-           !are_few(numbers.size(), count_covering(screen_, triangles, corner)) &&
-           std::none_of(numbers.begin(), numbers.end(),
-                        [&](std::uint32_t i) { return candidates_[i].line.is_loose(); });
+           !are_few(numbers.size(), count_covering(screen_, triangles, corner)) && !has_loose(block);
 }
 
 void FineLines::find_in_block(std::size_t block, std::vector<LinePiece>& pieces) {
@@ -426,15 +447,17 @@ void FineLines::find_in_block(std::size_t block, std::vector<LinePiece>& pieces)
     }
 }
 
-void FineLines::find_candidates(std::span<const FinePart> parts) {
+/// Finds those that are in no heap.
+void FineLines::find_candidates(std::span<const FinePart> parts, bool walls) {
     candidates_.clear();
     const FinePart* before = nullptr;
     std::span<const WholeLine> lines;
     for (const FinePart& part : parts) {
+        if (is_in_heap(part)) continue;
         const std::uint32_t instance = part.edge.instance;
         const HalfEdge h = part.edge.half_edge;
         const bool is_same = before != nullptr && before->edge.instance == instance && before->edge.half_edge == h;
-        if (!is_same) lines = lines_of(instance, h);
+        if (!is_same) lines = lines_of(instance, h, walls);
         before = &part;
         for (const WholeLine& line : lines) {
             const double begin =
@@ -453,7 +476,7 @@ void FineLines::find_candidates(std::span<const FinePart> parts) {
 }
 
 /// The lines that an edge is; they are good until the next call.
-std::span<const WholeLine> FineLines::lines_of(std::uint32_t instance, HalfEdge h) {
+std::span<const WholeLine> FineLines::lines_of(std::uint32_t instance, HalfEdge h, bool walls) {
     const SurfaceId s{instance, h / 3};
     if (is_loose({instance, h})) {
         lines_.clear();
@@ -462,7 +485,7 @@ std::span<const WholeLine> FineLines::lines_of(std::uint32_t instance, HalfEdge 
     }
     if (screen_.mesh(instance).partners[h] != h) {
         lines_.clear();
-        finder_.find(s, h, lines_);
+        finder_.find(s, h, lines_, walls);
         return lines_;
     }
     known_borders_.lines_of(instance, h, lines_, [&](std::vector<WholeLine>& lines) { finder_.find(s, h, lines); });

@@ -33,8 +33,12 @@ class FineLines {
 
   private:
     class BlockClipper;
-    void find_candidates(std::span<const FinePart> parts);
-    std::span<const WholeLine> lines_of(std::uint32_t instance, HalfEdge h);
+    void find_candidates(std::span<const FinePart> parts, bool walls);
+    std::span<const WholeLine> lines_of(std::uint32_t instance, HalfEdge h, bool walls);
+    void note_heaps(std::size_t tile, std::span<const FinePart> parts);
+    bool is_in_heap(const FinePart& part) const;
+    bool is_heap(std::size_t block) const;
+    bool has_loose(std::size_t block) const;
     bool is_loose(const FineEdge& edge) const {
         return edge.half_edge >= 3 * screen_.mesh(edge.instance).triangle_count;
     }
@@ -42,6 +46,7 @@ class FineLines {
     void find_in_block(std::size_t block, std::vector<LinePiece>& pieces);
 
     const ScreenSurfaces& screen_;
+    const TriangleBins& bins_;
     bool draws_each_;
     SampleBlocks grid_;
     EdgeLineFinder finder_;
@@ -49,6 +54,7 @@ class FineLines {
     std::unique_ptr<BlockClipper> clipper_;
     std::vector<FineCandidate> candidates_;
     std::vector<WholeLine> lines_;
+    std::vector<glm::ivec2> heaps_;  // blocks of a tile
     KnownBorders& known_borders_;
 };
 

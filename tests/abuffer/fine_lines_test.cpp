@@ -294,6 +294,37 @@ TEST(FineLines, HundredsOfTrianglesToAPixelAreLookedThrough) {
     }
 }
 
+// In a heap of very many triangles in a pixel lines are left to the samples, but not those beside it.
+TEST(FineLines, AHeapTakesNoLinesFromItsNeighbours) {
+    constexpr int kLast = 39;
+    PolygonSoup bumpy = make_torus(1.9, 0.9, 700, 280);
+    for (glm::dvec3& p : bumpy.positions)
+        p = glm::dvec3(20.1, 19.9, 0) + p + 0.04 * glm::sin(70.0 * glm::dvec3(p.y, p.z, p.x));
+    const auto rod = [](double x, double y, double w, double h) {
+        return transformed(make_box({w, h, 0.1}), [=](glm::dvec3 p) { return p + glm::dvec3(x, y, 0); });
+    };
+    // Between samples.
+    const std::vector<PolygonSoup> rods{rod(8.2, 20.5, 13, 0.2), rod(32.1, 19.5, 13, 0.2), rod(20.5, 7.9, 0.2, 13)};
+    std::vector<PolygonSoup> all = rods;
+    all.push_back(bumpy);
+    const Camera camera = pixel_camera(kLast + 1, kLast + 1);
+    const Drawing beside = draw_fine(scene_of(rods), camera, kLast + 1),
+                  drawn = draw_fine(scene_of(all), camera, kLast + 1);
+    for (int y = 0; y <= kLast; ++y) {
+        for (int x = 0; x <= kLast; ++x) {
+            const bool is_near_heap = x >= 14 && x < 26 && y >= 14 && y < 26;
+            if (!is_near_heap) {
+                EXPECT_EQ(drawn.line(x, y), beside.line(x, y)) << x << ' ' << y;
+            }
+        }
+    }
+    EXPECT_GT(beside.sum("lines.A"), 20);
+    Scene scene = scene_of({bumpy});
+    const Drawing heap = draw_fine(scene, camera, kLast + 1);
+    scene.abuffer.fine_lines = false;
+    EXPECT_EQ(largest_error(heap, draw_fine(scene, camera, kLast + 1)), 0);  // or this is no heap
+}
+
 TEST(FineLines, ThreadsTilesAndCropsChangeNothing) {
     constexpr int kPicture = 110;
     const Scene scene = rough_scene(7, 90);
