@@ -90,7 +90,12 @@ class ValueCompiler {
                 value.source.fail("a length in world units changes along a line; here it must be in px, mm, pt or %");
             return text_of(value.number) + "world";
         }
-        const double px = pixels(value.number, value.unit);
+        double px = pixels(value.number, value.unit);
+        // In pictures of another size it is possible.
+        if (value.unit == SheetUnit::percent) {
+            const auto most = static_cast<double>(target.most);
+            px = std::clamp(px, -most, most);
+        }
         if (px > static_cast<double>(target.most) || px < -static_cast<double>(std::abs(target.most)))
             value.source.fail("is " + text_of(px) + " px; at most " + text_of(static_cast<double>(target.most)) +
                               " px are possible");
@@ -171,6 +176,7 @@ CompiledStyle compile_style(const SheetStyle& style, const ExpressionSymbols& sy
     result.wobble_anchor = wobble.anchor;
     result.wobble_pin = wobble.pin;
     result.smooth_px = static_cast<float>(in_pixels(style.smooth.number, style.smooth.unit, context));
+    if (style.smooth.unit == SheetUnit::percent) result.smooth_px = std::min(result.smooth_px, kMostHaloPx);
     if (result.smooth_px > kMostHaloPx)
         style.smooth.source.fail("is " + text_of(static_cast<double>(result.smooth_px)) +
                                  " px; at most 1024 are possible");

@@ -99,9 +99,12 @@ std::optional<SurfaceLayer> layer_of(SurfaceVariable variable, const std::string
 
 double length_px(const StyleValue& value, double least, double most, const SheetContext& context) {
     const double px = in_pixels(value.number, value.unit, context);
-    if (!(px >= least && px <= most))
+    // What depends on the size of the picture is right in some sizes: in others the nearest length stands for it.
+    const bool is_too_small = px < least && value.unit == SheetUnit::px,
+               is_too_large = px > most && value.unit != SheetUnit::percent;
+    if (is_too_small || is_too_large)
         value.source.fail("is " + text_of(px) + " px; it must be from " + text_of(least) + " to " + text_of(most));
-    return px;
+    return std::clamp(px, least, most);
 }
 
 }  // namespace

@@ -256,6 +256,7 @@ TEST(SurfaceShading, FaultsOfExpressionsHaveTheirPlace) {
         {"color = \"=attr(x) * C\"", ":4:16: [surfaces] color: attr(\"name\") needs a text"},
         {"shading = \"hatch\"\ntone = \"=C\"", ":5:10: [surfaces] tone: a number is needed here"},
         {"shading = \"hatch\"\nspacing = \"9000pt\"", ":5:11: [surfaces] spacing: is 12000 px"},
+        {"shading = \"hatch\"\nspacing = 0.5", ":5:11: [surfaces] spacing: is 0.5 px; it must be from 1"},
         {"shading = \"toon\"\ndetail = { over = \"N\", tones = { stops = [[0, 1]] } }",
          ":5:20: [surfaces.detail] over: a number is needed here, but the expression is a vector"},
     };
@@ -267,6 +268,19 @@ TEST(SurfaceShading, FaultsOfExpressionsHaveTheirPlace) {
             EXPECT_NE(std::string(error.what()).find(c.message), std::string::npos) << error.what();
         }
     }
+}
+
+TEST(SurfaceShading, LengthsOfThePicturesSizeAreDrawnInEverySize) {
+    const auto with = [](const std::string& surfaces) {
+        return drawn(kNoLines + "[surfaces]\n" + surfaces + ball(32));
+    };
+    const std::string hatch = "shading = \"hatch\"\nspacing = ", toon = "shading = \"toon\"\nsoftness = ";
+    const Drawing least = with(hatch + "1\n"), most = with(hatch + "4096\n"), softest = with(toon + "4096\n");
+    for (const char* const small : {"\"0.3%\"", "\"0.05mm\"", "\"0.1pt\"", "\"0%\""})
+        EXPECT_TRUE(same_bits(with(hatch + small + "\n").image(), least.image())) << small;
+    EXPECT_TRUE(same_bits(with(hatch + "\"3000%\"\n").image(), most.image()));
+    EXPECT_TRUE(same_bits(with(toon + "\"3000%\"\n").image(), softest.image()));
+    EXPECT_FALSE(same_bits(with(hatch + "\"2%\"\n").image(), least.image()));
 }
 
 TEST(SurfaceShading, WhatIsNoNumberIsBlackAndNoted) {

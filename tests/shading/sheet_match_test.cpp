@@ -229,6 +229,9 @@ TEST(CompiledSheet, UnitsBecomePixels) {
     EXPECT_EQ(width("\"=height_px / 100\""), 5);
     EXPECT_EQ(width("\"=1mm + 1\""), 11);
     EXPECT_EQ(width("\"=1 / 0\""), 4096);
+    EXPECT_EQ(width("\"1000%\""), 4096);  // a picture of another size may have room for it
+    EXPECT_EQ(compiled("smooth = \"1000%\"", "", context).styles()[0].smooth_px, 1024);
+    EXPECT_THROW(width("\"500mm\""), InputError);
     const CompiledSheet world = compiled("width = \"0.2world\"");
     EXPECT_FALSE(world.styles()[0].is_constant(InkValue::width));
     EXPECT_TRUE(world.needs().variables.has(Variable::px_size));
