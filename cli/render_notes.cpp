@@ -1,5 +1,6 @@
 #include "cli/render_notes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -7,7 +8,9 @@
 #include "methods/gbuffer/gbuffer.h"
 #include "methods/patel/patel.h"
 #include "methods/seen_surfaces.h"
+#include "output/vector_layers.h"
 #include "render/picture_notes.h"
+#include "shading/sheet/style_sheet.h"
 
 namespace burin {
 namespace {
@@ -30,6 +33,22 @@ void note_loose_edges(const Frame& frame, const Method& method) {
             stderr,
             "burin: note: method %s draws edges of polygons only, and leaves out %s of the input; abuffer draws them\n",
             std::string(method.name).c_str(), lines.c_str());
+    }
+}
+
+/// Notes a sheet whose colour is hardly seen on the paper, where nothing else lies below its lines.
+void note_pale_ink(const Frame& frame) {
+    const Scene& scene = *frame.scene;
+    if (!scene.sheet || scene.picture.transparent || surfaces_have_look(scene)) return;
+    for (const SheetParameter& p : scene.sheet->parameters) {
+        if (p.name != "color" || p.value.kind != StyleValue::Kind::color) continue;
+        const glm::vec3 paper = scene.picture.background.value_or(glm::vec3(1.0f));
+        const glm::ivec3 off =
+            glm::abs(srgb_codes({p.value.color[0], p.value.color[1], p.value.color[2]}) - srgb_codes(paper));
+        if (std::max({off.r, off.g, off.b}) >= kHardlySeen) continue;
+        std::fprintf(stderr,
+                     "burin: note: the color of the style sheet is about as pale as the paper, or as dark, so that "
+                     "little is seen; choose another --background or --color\n");
     }
 }
 
@@ -79,6 +98,7 @@ void note_limits(const Arguments& a, const Frame& frame, const Method& method, b
     note_if_unused(has_transparent_surfaces(*frame.scene), "the opacity of materials", "abuffer");
     const LineSettings& lines = frame.scene->lines;
     note_loose_edges(frame, method);
+    if (paths + exrs < outputs.size()) note_pale_ink(frame);
     const auto missing = LineClassSet::from_bits(lines.classes.bits & ~unsigned{method.draws.bits});
     if (!missing.empty()) {
         std::fprintf(stderr, "burin: note: method %s cannot draw %s\n", std::string(method.name).c_str(),

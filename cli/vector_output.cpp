@@ -30,9 +30,6 @@ VectorDrawing draw_paths(const FoundLines& lines, const Frame& frame, const Argu
 
 namespace {
 
-/// Codes by which a colour that is hardly seen differs from the paper's.
-constexpr int kHardlySeen = 48;
-
 /// Notes what a look becomes on a page without saying so: paths in the colour of the paper, or in colours where offices
 /// want black.
 void note_on_looks(const Arguments& a, const VectorDrawing& drawing, std::vector<std::string>& notes) {

@@ -12,6 +12,9 @@
 
 namespace burin {
 
+/// Codes of sRGB by which a colour that is hardly seen differs from the paper's.
+constexpr int kHardlySeen = 48;
+
 /// Draws lines as paths, as the frame's style sheet says. Of the frame's surfaces it reads nothing. `notes`: gets what
 /// users should know.
 VectorDrawing draw_paths(const FoundLines& lines, const Frame& frame, const Arguments& arguments, VectorStats& stats,

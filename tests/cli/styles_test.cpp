@@ -306,5 +306,22 @@ TEST_F(Styles, AreListedAndPrinted) {
     EXPECT_EQ(broken.status, 1);
 }
 
+TEST_F(Styles, BlueprintWantsAGroundOnly) {
+    folder_.write("c.toml", "[[object]]\nshape = \"box\"\n");
+    const auto drawn = [&](Arguments more) {
+        more.insert(more.begin(), {"render", "c.toml", "--style", "blueprint", "-r", "64x48", "-o", "b.png"});
+        return run_burin(folder_.path(), more).err;
+    };
+    EXPECT_NE(drawn({}).find("the color of the style sheet is about as pale as the paper"), std::string::npos);
+    EXPECT_EQ(drawn({"-q"}), "");
+    EXPECT_EQ(drawn({"--color", "#203060"}), "");
+    EXPECT_EQ(drawn({"--background", "transparent"}), "");
+    EXPECT_EQ(drawn({"--background", "#1f3a6e"}), "");
+    const std::string alone = read_file(folder_.file("b.png"));
+    drawn({"--background", "#1f3a6e", "--set", "surfaces.shading=none"});
+    EXPECT_EQ(read_file(folder_.file("b.png")), alone);
+    EXPECT_FALSE(alone.empty());
+}
+
 }  // namespace
 }  // namespace burin::test::styles_test
