@@ -47,7 +47,7 @@ class DepthOfPiles : public testing::Test {
 
 TEST_F(DepthOfPiles, IsTheNumberOfSurfacesOverEachPixel) {
     EXPECT_EQ(draw("40x40", {"--depth-complexity", "1"}).status, 1);
-    EXPECT_EQ(folder_.names().size(), 1u);  // nothing is written
+    EXPECT_EQ(folder_.names().size(), 1u);                    // nothing is written
     for (const char* size : {"16x16", "40x40", "128x128"}) {  // of small triangles, and of large ones
         EXPECT_EQ(draw(size, {"--depth-complexity", "40.1"}).status, 0) << size;
         const ProgramResult refused = draw(size, {"--depth-complexity", "39.9"});
