@@ -377,9 +377,9 @@ TEST_F(Render, Stats) {
             EXPECT_GE(stats.at("stages").at(stage).get<double>(), 0) << stage;
             EXPECT_LT(stats.at("stages").at(stage).get<double>(), 60) << stage;
         }
-        double parts = 0;
+        double parts = 0;  // of what is not done by a thread of its own, as writing is
         for (const auto& [stage, seconds] : stats.at("stages").items()) {
-            if (stage != "total") parts += seconds.get<double>();
+            if (stage != "total" && stage != "write") parts += seconds.get<double>();
         }
         EXPECT_LE(parts, stats.at("stages").at("total").get<double>() * 1.01);
         EXPECT_EQ(stats.at("triangles"), 12);
