@@ -149,7 +149,8 @@ class DxfWriter {
         std::vector<Counted> order(counts.begin(), counts.end());
         std::stable_sort(order.begin(), order.end(),
                          [](const Counted& a, const Counted& b) { return a.second > b.second; });
-        for (const auto& [dash_px, count] : order) {
+        for (const Counted& counted : order) {
+            const std::vector<float>& dash_px = counted.first;
             const auto same = std::find_if(line_types_.begin(), line_types_.end(),
                                            [&](const auto& known) { return is_one_pattern(known, dash_px); });
             dashes_[dash_px] = "DASHES_" + std::to_string(same - line_types_.begin() + 1);
