@@ -45,8 +45,9 @@ void render_still(const Arguments& a, RenderJob& job, double load_s, const Stopw
         note_on_frame(a, "", note);
         check_files_of(plan, frame);
     }
-    renderer.pose(renderer.change_at(frame));
+    auto change = renderer.change_at(frame);
     load_s += watch.lap();
+    renderer.pose(std::move(change));  // its time is counted with the frame's
     DrawnFrame drawn = renderer.draw(renderer.outputs_of(frame, fingerprint), &progress);
     StageTimes& times = drawn.times;
     drawn.write(a);
@@ -246,7 +247,7 @@ void run_render(const Arguments& a) {
     RenderJob ready(a);
     if (a.is_dry_run) return tell_dry_run(ready, a);
     const FramePlan& plan = ready.plan();
-    const double load_s = watch.lap();
+    const double load_s = watch.lap() - ready.renderer().pose_s();  // that is counted with the first frame's
     if (!plan.is_sequence) return render_still(a, ready, load_s, total, progress, shows_bar);
     FrameJob job(a, plan, ready.renderer(), progress, load_s);
     job.run();

@@ -56,6 +56,8 @@ class FrameRenderer {
     SceneChange change_at(double frame) const;
     /// Puts the scene into a frame, and makes the camera ready. Throws InputError and UsageError.
     void pose(SceneChange&& change);
+    /// How long the frame in work has been posed: draw() adds it to what the frame took to load.
+    double pose_s() const { return pose_s_; }
     /// The files of a frame.
     std::vector<OutputOptions> outputs_of(double frame, const FrameFingerprint& fingerprint) const;
     /// Draws what it was put into, for these files. Throws InputError, UsageError and Interrupted.
