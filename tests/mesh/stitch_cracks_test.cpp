@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -10,6 +11,7 @@
 #include <tuple>
 
 #include "mesh/build_meshes.h"
+#include "mesh/split_borders.h"
 #include "tests/mesh/mesh_checks.h"
 #include "tests/support/random.h"
 
@@ -326,6 +328,41 @@ TEST(StitchCracks, MarksGoOnOverBothSides) {
         EXPECT_NE(whole->next_on_edge[h], h);
     }
     EXPECT_EQ(marked, 4);  // cut in two, on both sides
+}
+
+/// Where the ends of hundreds lie beside each border, none is cut: that would take time that grows with their square.
+/// As many triangles that lie apart are cut as ever.
+TEST(StitchCracks, BordersInPilesAreNotCut) {
+    constexpr std::uint32_t kTriangles = 12000, kCorners = 400;
+    Random random(7);
+    PolygonSoup pile = soup_of({}, {});
+    for (std::uint32_t i = 0; i < kCorners; ++i) pile.positions.push_back({random.real(0, 1), random.real(0, 1), 0});
+    for (std::uint32_t i = 0; i < kTriangles; ++i) {
+        std::array<std::uint32_t, 3> t{};
+        for (std::uint32_t& corner : t) corner = static_cast<std::uint32_t>(random.integer(0, kCorners - 1));
+        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) pile.add_polygon(t);
+    }
+    EXPECT_FALSE(split_borders(build_meshes(pile, {}).at(0), everywhere(0.02), 1).has_value());
+
+    PolygonSoup apart = soup_of({}, {});
+    for (std::uint32_t i = 0; i < kTriangles / 4; ++i) {
+        const double x = 3.0 * (i % 32), y = 3.0 * (i / 32);
+        const auto add = [&](std::initializer_list<glm::dvec3> corners) {
+            std::vector<std::uint32_t> polygon;
+            for (const glm::dvec3& corner : corners) {
+                polygon.push_back(static_cast<std::uint32_t>(apart.positions.size()));
+                apart.positions.push_back(corner);
+            }
+            apart.add_polygon(polygon);
+        };
+        add({{x, y, 0}, {x + 2, y, 0}, {x + 1, y - 1, 0}});  // its upper side is cut by the corner of the next two
+        add({{x, y, 0}, {x + 1, y, 0}, {x, y + 1, 0}});
+        add({{x + 1, y, 0}, {x + 2, y, 0}, {x + 2, y + 1, 0}});
+    }
+    const Mesh mesh = build_meshes(apart, {}).at(0);
+    const auto cut = split_borders(mesh, everywhere(0.02), 1);
+    ASSERT_TRUE(cut.has_value());
+    EXPECT_EQ(cut->triangles.size(), mesh.triangles.size() + kTriangles / 4);
 }
 
 }  // namespace
