@@ -21,7 +21,9 @@ namespace fs = std::filesystem;
 const std::vector<std::string> kExtensions = {".obj", ".ply", ".stl", ".off", ".gltf", ".glb", ".toml"};
 
 ProgramResult render(const TemporaryFolder& folder, const std::string& input) {
-    return run_burin(folder.path(), {"render", input, "-r", "16x12", "-o", "out.exr"});
+    ProgramOptions options;
+    options.time_limit_s = kReadingLimit_s;
+    return run_burin(folder.path(), {"render", input, "-r", "16x12", "-o", "out.exr"}, options);
 }
 
 /// Expects a failure that names the input, or another file in its place.
