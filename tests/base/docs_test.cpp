@@ -90,6 +90,13 @@ TEST(Docs, ReadmesNameTheFilesOfTheirFolder) {
     }
 }
 
+TEST(Docs, ReadmesOfFoldersAreShort) {
+    for (const auto& folder : fs::directory_iterator(kRoot)) {
+        const std::string text = text_of(folder.path() / "README.md");
+        EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 30) << folder.path();
+    }
+}
+
 /// README.md, CONTRIBUTING.md, READMEs of folders and the pages of `docs`.
 std::vector<fs::path> pages() {
     std::vector<fs::path> pages = {kRoot / "README.md", kRoot / "CONTRIBUTING.md"};
