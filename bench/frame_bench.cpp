@@ -61,7 +61,7 @@ void quarter(Mesh& mesh) {
 struct View {
     Scene scene;
     PreparedScene prepared;
-    Frame frame;
+    Frame frame, frame_with_hidden;  ///< without hidden lines, and with: a frame says which lines are found
 
     View(const std::string& model, int width, int height, bool has_quarters = false)
         : scene(load_scene(bare_model_scene(model, {}))) {
@@ -74,7 +74,12 @@ struct View {
         const Camera camera = resolve_camera(settings, scene_points(scene), static_cast<double>(width) / height);
         close_cracks(scene, camera, width, height, 1);
         prepared = prepare_for_abuffer(scene, 1);
-        frame = make_frame(scene, camera, width, height, {0, 0, width, height}, &prepared);
+        const auto frame_of = [&](HiddenStyle hidden) {
+            scene.lines.style.hidden.style = hidden;
+            return make_frame(scene, camera, width, height, {0, 0, width, height}, &prepared);
+        };
+        frame_with_hidden = frame_of(HiddenStyle::solid);
+        frame = frame_of(HiddenStyle::none);
     }
     View(const View&) = delete;  // the frame points into the scene
     View& operator=(const View&) = delete;
@@ -180,7 +185,7 @@ std::function<void()> drawing(View& view, Film& film, std::optional<int> samples
         view.scene.lines.style.hidden.style = hidden;
         RunOptions options;
         options.threads = threads;
-        render_abuffer(view.frame, options, film);
+        render_abuffer(hidden == HiddenStyle::none ? view.frame : view.frame_with_hidden, options, film);
     };
 }
 

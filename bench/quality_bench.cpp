@@ -26,8 +26,8 @@ namespace {
 const Method& abuffer() { return *find_method("abuffer"); }
 const Method& reference() { return *find_method("reference"); }
 
-View view_of(const Scene& scene, int width, int height) {
-    View view;
+ComparedView view_of(const Scene& scene, int width, int height) {
+    ComparedView view;
     view.width = width;
     view.height = height;
     view.crop = {0, 0, width, height};
@@ -35,17 +35,17 @@ View view_of(const Scene& scene, int width, int height) {
     return view;
 }
 
-Plane lines_of(const Method& method, const Scene& scene, const View& view) {
+Plane lines_of(const Method& method, const Scene& scene, const ComparedView& view) {
     return render_lines(method, scene, view, {}).coverage;
 }
 
-Plane truth_of(Scene& scene, const View& view, int samples) {
+Plane truth_of(Scene& scene, const ComparedView& view, int samples) {
     scene.reference.samples = samples;
     return lines_of(reference(), scene, view);
 }
 
 /// Compares one picture with its truth of `samples` x `samples` per pixel.
-void measure_picture(JsonWriter& json, const std::string& name, Scene& scene, const View& view, double width_px,
+void measure_picture(JsonWriter& json, const std::string& name, Scene& scene, const ComparedView& view, double width_px,
                      int samples) {
     scene.lines.style.width_px = width_px;
     const Plane result = lines_of(abuffer(), scene, view), truth = truth_of(scene, view, samples);
@@ -69,7 +69,7 @@ void measure_widths(JsonWriter& json, double width_px) {
     TestChart chart = make_test_chart(width_px);
     chart.scene.lines.classes = chart_classes(abuffer().draws);
     chart.scene.lines.style.width_px = width_px;
-    const View view{chart.camera, chart.width, chart.height, {0, 0, chart.width, chart.height}};
+    const ComparedView view{chart.camera, chart.width, chart.height, {0, 0, chart.width, chart.height}};
     const Plane coverage = lines_of(abuffer(), chart.scene, view);
     std::vector<double> widths;
     for (const Segment& line : chart.star) widths.push_back(mean_of(widths_along(coverage, line, chart.reach_px)));
@@ -81,12 +81,12 @@ void measure_widths(JsonWriter& json, double width_px) {
 
 /// Measures the busiest part of a picture while the camera moves by 1/32 pixel per frame, beside what plain
 /// supersampling with 16 x 16 samples makes of it. The truth is the method reference with 32 x 32.
-void measure_motion(JsonWriter& json, const std::string& name, Scene& scene, const View& still) {
+void measure_motion(JsonWriter& json, const std::string& name, Scene& scene, const ComparedView& still) {
     constexpr int kFrames = 32, kPart = 48;
     const PixelRect part = busiest_part(lines_of(abuffer(), scene, still), still.crop, kPart, kPart);
     std::vector<Plane> results, plain, truths;
     for (int j = 0; j < kFrames; ++j) {
-        View view = moved_view(scene, still, j);
+        ComparedView view = moved_view(scene, still, j);
         view.crop = part;
         results.push_back(lines_of(abuffer(), scene, view));
         plain.push_back(supersampled_lines(scene, view, 16));
@@ -106,7 +106,7 @@ std::string measure_quality(const std::string& scenes, const std::vector<std::st
     };
     constexpr int kSize = 160;
     Scene star = load("star"), crossing = load("crossing"), teapot = load("teapot");
-    const View star_view = view_of(star, kSize, kSize), crossing_view = view_of(crossing, kSize, kSize);
+    const ComparedView star_view = view_of(star, kSize, kSize), crossing_view = view_of(crossing, kSize, kSize);
     JsonWriter json;
     json.begin_object();
     json.key("samples_per_pixel")

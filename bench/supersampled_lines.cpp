@@ -10,7 +10,7 @@ namespace burin::bench {
 namespace {
 
 /// The polygons at samples; beyond the picture's border there is nothing.
-Image polygons_of(const Scene& scene, const View& fine) {
+Image polygons_of(const Scene& scene, const ComparedView& fine) {
     Scene plain = scene;
     plain.lines.classes = {};
     const Frame frame = make_frame(plain, fine.camera, fine.width, fine.height, fine.crop);
@@ -22,10 +22,10 @@ Image polygons_of(const Scene& scene, const View& fine) {
 
 }  // namespace
 
-Plane supersampled_lines(const Scene& scene, const View& view, int samples) {
+Plane supersampled_lines(const Scene& scene, const ComparedView& view, int samples) {
     const double radius = 0.5 * scene.lines.style.width_px * samples;
     const int reach = static_cast<int>(std::ceil(radius)) + 1;
-    View fine = view;
+    ComparedView fine = view;
     fine.width *= samples;
     fine.height *= samples;
     const PixelRect c = view.crop;
