@@ -144,7 +144,7 @@ class PlanePair {
     }
 
     bool has_both() const { return of_a_.has_plane() && of_b_.has_plane(); }
-    SurfaceOrder at(glm::dvec2 p, bool may_be_one_plane, const CoordinateErrors& errors) const {
+    SurfaceOrders at(glm::dvec2 p, const CoordinateErrors& errors) const {
         const double nearness = plane_a_.extended_to(p), gap = nearness - plane_b_.extended_to(p);
         const auto change = [&](double of_a, double of_b) {
             return of_a_.change(nearness, of_a) + of_b_.change(nearness, of_b);
@@ -159,11 +159,14 @@ class PlanePair {
         const double own_error =
             std::min(error, std::max(change(errors.of_a, errors.of_b), kLeastCertainPx * per_pixel));
         (gap > own_error ? order.has_nearer : gap < -own_error ? order.has_farther : order.has_equal) = true;
-        const double allowed = may_be_one_plane ? std::max(error, visible) : error;
-        order.is_apart = !(std::abs(gap) + kAroundPx * drift_ <= allowed);  // so is what is not a number
-        order.is_far = !(std::abs(gap) <= (may_be_one_plane ? std::max(error, kCopiesApartPx * per_pixel) : error));
         order.least_gap_px = order.greatest_gap_px = gap / per_pixel;
-        return order;
+        const auto with_limits = [&](double of_one_plane, double of_copies) {
+            order.is_apart = !(std::abs(gap) + kAroundPx * drift_ <= of_one_plane);  // so is what is not a number
+            order.is_far = !(std::abs(gap) <= of_copies);
+            return order;
+        };
+        return {with_limits(std::max(error, visible), std::max(error, kCopiesApartPx * per_pixel)),
+                with_limits(error, error)};
     }
 
   private:
@@ -194,23 +197,27 @@ bool faces_eye(const Projection& projection, const glm::dvec3 (&corners)[3]) {
     return Sensitivity(projection, corners).is_front();
 }
 
-SurfaceOrder compare_surfaces(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3],
-                              bool may_be_one_plane, const CoordinateErrors& errors) {
+SurfaceOrders compare_surfaces(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3],
+                               const CoordinateErrors& errors) {
     const ScreenPolygon on_screen_a = project_triangle(projection, a), on_screen_b = project_triangle(projection, b);
     if (are_beside(on_screen_a, on_screen_b)) return {};  // small ones mostly are, and this takes less time
     const PlanePair planes(projection, a, b);
     if (!planes.has_both()) return {};
     const Region region = common_region(projection, on_screen_a, on_screen_b);
-    SurfaceOrder order;
-    if (region.is_sliver()) return order;
-    for (const glm::dvec2 p : region.corners()) order += planes.at(p, may_be_one_plane, errors);
-    return order;
+    SurfaceOrders orders;
+    if (region.is_sliver()) return orders;
+    for (const glm::dvec2 p : region.corners()) {
+        const SurfaceOrders there = planes.at(p, errors);
+        orders.of_one_plane += there.of_one_plane;
+        orders.of_two_planes += there.of_two_planes;
+    }
+    return orders;
 }
 
-SurfaceOrder compare_planes(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3],
-                            glm::dvec2 place, bool may_be_one_plane, const CoordinateErrors& errors) {
+SurfaceOrders compare_planes(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3],
+                             glm::dvec2 place, const CoordinateErrors& errors) {
     const PlanePair planes(projection, a, b);
-    return planes.has_both() ? planes.at(place, may_be_one_plane, errors) : SurfaceOrder{};
+    return planes.has_both() ? planes.at(place, errors) : SurfaceOrders{};
 }
 
 }  // namespace burin

@@ -58,13 +58,18 @@ struct CoordinateErrors {
     CoordinateErrors(double everywhere, double a, double b) : any(everywhere), of_a(a), of_b(b) {}
 };
 
-/// Compares two triangles, with corners in view space, wherever both are. Where the two may not be one plane, as the
-/// two sides of a thin sheet are none, nothing but errors of coordinates counts.
-SurfaceOrder compare_surfaces(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3],
-                              bool may_be_one_plane, const CoordinateErrors& errors);
+/// How two triangles lie to each other if they may be parts of one plane, and if they may not, as the two sides of a
+/// thin sheet: then nothing but errors of coordinates counts.
+struct SurfaceOrders {
+    SurfaceOrder of_one_plane, of_two_planes;
+};
+
+/// Compares two triangles, with corners in view space, wherever both are.
+SurfaceOrders compare_surfaces(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3],
+                               const CoordinateErrors& errors);
 /// Compares their planes at one place, in pixels.
-SurfaceOrder compare_planes(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3],
-                            glm::dvec2 place, bool may_be_one_plane, const CoordinateErrors& errors);
+SurfaceOrders compare_planes(const Projection& projection, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3],
+                             glm::dvec2 place, const CoordinateErrors& errors);
 
 /// Whether the corners of a triangle run counterclockwise as seen.
 bool faces_eye(const Projection& projection, const glm::dvec3 (&corners)[3]);

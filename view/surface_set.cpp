@@ -25,11 +25,11 @@ std::pair<std::uint32_t, std::uint32_t> triangles_of_polygon(const Mesh& mesh, s
 
 }  // namespace
 
-SurfaceOrder SurfaceSet::order(SurfaceId a, SurfaceId b) const {
+SurfaceOrder SurfaceSet::order(SurfaceId a, SurfaceId b, OrderMemory* memory) const {
     SurfaceOrder order = order_of_polygons(a, b);
     const bool may_be_copies =
         order.have_common_place && !order.is_far && (order.has_nearer || order.has_farther) && !order.are_coincident();
-    order.is_of_copies = may_be_copies && are_rounded_copies(*this, a, b);
+    order.is_of_copies = may_be_copies && are_rounded_copies(*this, a, b, memory);
     return order;
 }
 
@@ -54,15 +54,11 @@ SurfaceOrder SurfaceSet::compare(SurfaceId s, SurfaceId t, const glm::dvec2* pla
     view_corners(s, corners_s);
     view_corners(t, corners_t);
     const CoordinateErrors errors(coordinate_error, rounding_error(s, corners_s), rounding_error(t, corners_t));
-    const auto compare_as = [&](bool may_be_one_plane) {
-        if (place != nullptr) return compare_planes(projection, corners_s, corners_t, *place, may_be_one_plane, errors);
-        return compare_surfaces(projection, corners_s, corners_t, may_be_one_plane, errors);
-    };
-    const SurfaceOrder order = compare_as(true);
-    if (s.instance != t.instance || order.is_far || !order.have_common_place) return order;
+    const SurfaceOrders orders = place != nullptr ? compare_planes(projection, corners_s, corners_t, *place, errors)
+                                                  : compare_surfaces(projection, corners_s, corners_t, errors);
+    const SurfaceOrder &order = orders.of_one_plane, &exact = orders.of_two_planes;
     // Mostly there is no need to know where bodies are.
-    const SurfaceOrder exact = compare_as(false);
-    if (!exact.is_apart) return order;
+    if (s.instance != t.instance || order.is_far || !order.have_common_place || !exact.is_apart) return order;
     // A thin sheet has two sides. Bodies that are flush with each other may be wound either way.
     const bool s_faces_eye = faces_eye(projection, corners_s), t_faces_eye = faces_eye(projection, corners_t);
     const bool face_alike = s_faces_eye == t_faces_eye;

@@ -17,6 +17,8 @@
 
 namespace burin {
 
+class OrderMemory;
+
 /// A triangle of an instance. Ordered by instance (that is, by object), then by triangle.
 struct SurfaceId {
     static constexpr std::uint32_t kNoInstance = 0xFFFFFFFFu;
@@ -82,7 +84,7 @@ struct SurfaceSet {
     }
     /// How the polygons of two triangles lie to each other, or the two triangles, if the polygons have many corners.
     /// Not all places are looked at where they are apart. For triangles of one polygon all is false.
-    SurfaceOrder order(SurfaceId a, SurfaceId b) const;
+    SurfaceOrder order(SurfaceId a, SurfaceId b, OrderMemory* memory = nullptr) const;
     /// How the planes of the two triangles lie to each other at a place on the screen, in pixels.
     SurfaceOrder order_at(SurfaceId a, SurfaceId b, glm::dvec2 place) const { return compare(a, b, &place); }
     /// order(), or order_at() if the polygons have no place in common.

@@ -169,7 +169,7 @@ bool Contests::is_fold_over(std::uint32_t front, std::uint32_t back) const {
     return extended_nearness(own, beyond.x, beyond.y) > static_cast<double>(beyond.nearness);
 }
 
-SurfaceOrder Contests::order(std::uint32_t loser, std::uint32_t winner) const {
+SurfaceOrder Contests::order(std::uint32_t loser, std::uint32_t winner) {
     const SurfaceId a = screen_.surface_of(loser), b = screen_.surface_of(winner);
     if (a.instance == b.instance) {
         // Neighbours that fold over are level along their edge, and no more.
@@ -179,7 +179,7 @@ SurfaceOrder Contests::order(std::uint32_t loser, std::uint32_t winner) const {
             if (std::find(t.begin(), t.end(), v) != t.end()) return {};
         }
     }
-    return screen_.surfaces().order(a, b);
+    return screen_.surfaces().order(a, b, &orders_);
 }
 
 }  // namespace burin

@@ -8,7 +8,7 @@
 #include "abuffer/samples/sample_tile.h"
 #include "abuffer/screen/screen_surfaces.h"
 #include "kernels/tile_kernels.h"
-#include "view/surface_set.h"
+#include "view/order_memory.h"
 
 // Where surfaces are level at a sample, more than nearness decides which of them is seen.
 
@@ -84,7 +84,7 @@ class Contests {
     const Relation& relation(std::uint32_t loser, std::uint32_t winner);
     bool is_fold_over(std::uint32_t front, std::uint32_t back) const;
     bool may_be_in_front(std::uint32_t front, std::uint32_t back) const;
-    SurfaceOrder order(std::uint32_t loser, std::uint32_t winner) const;
+    SurfaceOrder order(std::uint32_t loser, std::uint32_t winner);
 
     const ScreenSurfaces& screen_;
     std::size_t most_;
@@ -98,6 +98,7 @@ class Contests {
     std::vector<std::uint8_t> is_open_;  // per sample: whether a loser may win after all
     std::vector<Relation> relations_;    // some that are known, by a hash
     std::size_t forgotten_ = 0;          // how often one took another's place
+    OrderMemory orders_;                 // what are_rounded_copies() compared
 };
 
 }  // namespace burin

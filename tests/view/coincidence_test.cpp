@@ -44,7 +44,7 @@ struct Pair {
 };
 
 bool coincide(const Projection& p, const glm::dvec3 (&a)[3], const glm::dvec3 (&b)[3], double coordinate_error) {
-    return compare_surfaces(p, a, b, true, coordinate_error).are_coincident();
+    return compare_surfaces(p, a, b, coordinate_error).of_one_plane.are_coincident();
 }
 
 void move(glm::dvec3 (&corners)[3], const glm::dvec3& by) {
@@ -89,8 +89,8 @@ TEST(Coincidence, IsNotThatOfASurfaceInFrontOfAnother) {
             for (const double by : {1e-6, 1e-5, 1e-4, 1e-2}) {
                 Pair moved = pair;
                 move(moved.b, by * towards_eye);
-                const SurfaceOrder order = compare_surfaces(p, moved.b, moved.a, true, 1e-7),
-                                   reversed = compare_surfaces(p, moved.a, moved.b, true, 1e-7);
+                const SurfaceOrder order = compare_surfaces(p, moved.b, moved.a, 1e-7).of_one_plane,
+                                   reversed = compare_surfaces(p, moved.a, moved.b, 1e-7).of_one_plane;
                 ASSERT_FALSE(order.are_coincident() || reversed.are_coincident()) << trial << ' ' << by;
                 ASSERT_TRUE(order.is_in_front() && !order.is_behind()) << trial << ' ' << by;
                 ASSERT_TRUE(reversed.is_behind() && !reversed.is_in_front()) << trial << ' ' << by;
@@ -112,9 +112,9 @@ TEST(Coincidence, TakesTheErrorsOfTheTwoTriangles) {
         for (const double by : {1e-6, 1e-4}) {
             Pair moved = pair;
             move(moved.b, by * towards_eye);
-            ASSERT_EQ(compare_surfaces(p, moved.b, moved.a, true, {1e-3, 1e-8, 1e-8}).is_in_front(), by > 1e-5)
+            ASSERT_EQ(compare_surfaces(p, moved.b, moved.a, {1e-3, 1e-8, 1e-8}).of_one_plane.is_in_front(), by > 1e-5)
                 << trial;
-            ASSERT_FALSE(compare_surfaces(p, moved.b, moved.a, true, {1e-3, 1e-3, 1e-8}).is_in_front()) << trial;
+            ASSERT_FALSE(compare_surfaces(p, moved.b, moved.a, {1e-3, 1e-3, 1e-8}).of_one_plane.is_in_front()) << trial;
         }
     }
 }
@@ -146,8 +146,8 @@ TEST(Coincidence, IsExactWhereTheyMayNotBeOnePlane) {
         if (!pair.is_useful) continue;
         for (glm::dvec3& c : pair.b) c += 1e-4 * glm::dot(c - pair.origin, pair.along) * pair.normal;
         ASSERT_TRUE(coincide(p, pair.a, pair.b, 1e-7)) << trial;
-        ASSERT_FALSE(compare_surfaces(p, pair.a, pair.b, false, 1e-7).are_coincident()) << trial;
-        ASSERT_TRUE(compare_surfaces(p, pair.a, pair.b, false, 1e-3).are_coincident()) << trial;
+        ASSERT_FALSE(compare_surfaces(p, pair.a, pair.b, 1e-7).of_two_planes.are_coincident()) << trial;
+        ASSERT_TRUE(compare_surfaces(p, pair.a, pair.b, 1e-3).of_two_planes.are_coincident()) << trial;
         std::swap(pair.b[0], pair.b[1]);
         ASSERT_TRUE(coincide(p, pair.a, pair.b, 1e-7)) << "either way it is wound";
         ASSERT_NE(faces_eye(p, pair.a), faces_eye(p, pair.b));
@@ -162,7 +162,7 @@ TEST(Coincidence, AsksOnlyWhereBothAreInThePicture) {
                      other[3] = {{-1, -1.00001, -20}, {1, -0.99999, -20}, {0, -1.00002, -0.1}};
     EXPECT_TRUE(coincide(p, one, other, 1e-9));
     const glm::dvec3 beside[3] = {{5, 5, -6}, {6, 5, -6}, {5, 6, -6}};
-    EXPECT_FALSE(compare_surfaces(p, one, beside, true, 1e-9).have_common_place);
+    EXPECT_FALSE(compare_surfaces(p, one, beside, 1e-9).of_one_plane.have_common_place);
     EXPECT_FALSE(coincide(p, one, beside, 1e-9));
 }
 
