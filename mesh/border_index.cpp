@@ -290,7 +290,7 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
 
 BorderIndex::Neighbourhood BorderIndex::neighbourhood(HalfEdge half_edge, const glm::dvec3& at) const {
     // Others are looked for somewhat farther away, so that the answer holds for some places around.
-    constexpr double kFarther = 0.25 * kWidestReachPart;
+    const double kFarther = std::min(0.25 * kWidestReachPart, 1 * reach_part_);
     Neighbourhood found;
     found.at_ = at;
     const Segment* const own = find(half_edge);
