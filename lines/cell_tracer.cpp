@@ -98,8 +98,21 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
         }
         add(a, a.pixel, b.pixel, center, pieces, &b);
     };
-    /// Ends a crossing's line at the line between two others.
+    /// The corner in the cell at which a crossing's edge meets that of another one.
+    const auto corner_of = [&](const LineCrossing& c) -> std::optional<glm::dvec2> {
+        if (!has_edge(c)) return std::nullopt;
+        for (const glm::dvec2& p : c.edge_ends) {
+            if (!is_inside(p, low, high)) continue;
+            for (const LineCrossing* const other : crossings) {
+                if (other->line != c.line && has_edge(*other) && (p == other->edge_ends[0] || p == other->edge_ends[1]))
+                    return p;
+            }
+        }
+        return std::nullopt;
+    };
+    /// Ends a crossing's line at its corner, or at the line between two others.
     const auto end_at = [&](const LineCrossing& c, glm::dvec2 from, glm::dvec2 to) {
+        if (const auto corner = corner_of(c)) return add(c, c.pixel, *corner, center, pieces);
         const glm::dvec2 along = to - from;
         const double length = glm::dot(along, along);
         const double t = length > 0 ? std::clamp(glm::dot(c.pixel - from, along) / length, 0.0, 1.0) : 0.0;

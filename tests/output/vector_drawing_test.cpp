@@ -184,6 +184,23 @@ TEST(VectorDrawings, ABoxHasClosedOutline) {
     EXPECT_LE(drawing.paths.size(), 4u);
 }
 
+/// Where four edges meet, each line goes on, whatever way it runs: one path leads from border to border.
+TEST(VectorDrawings, LinesOfANetAreNotCutWhereTheyCross) {
+    for (std::uint64_t trial = 0; trial < 40; ++trial) {
+        Random random(trial);
+        glm::dvec3 towards_eye = random.direction();
+        towards_eye.y = std::abs(towards_eye.y) + 0.4;
+        if (trial % 4 == 0) towards_eye.x = 0;  // lines along rows of pixels
+        const glm::dvec3 eye = 8.0 * glm::normalize(towards_eye);
+        const std::string camera = "eye=[" + std::to_string(eye.x) + "," + std::to_string(eye.y) + "," +
+                                   std::to_string(eye.z) + "]\ntarget=[0,0,0]\n";
+        const std::string net = "[[object]]\nshape='plane'\nsize=[3,3]\ncolumns=7\nrows=5\n";
+        ShadedScene scene(scene_with(camera, net), sheet_of("'border','polygon'", "width=1"), kWidth, kHeight);
+        const VectorDrawing drawing = drawing_of(scene);
+        EXPECT_EQ(drawing.paths.size(), 6u + 4u + 1u) << trial;
+    }
+}
+
 TEST(VectorDrawings, PartsOfOneEdgeHaveOneName) {
     // A wall in front of the middle of a long box.
     const std::string scene = scene_with("eye=[0,1.5,8]\ntarget=[0,0,0]\n",
