@@ -70,7 +70,9 @@ class FineCells {
         int x0, x1, y0, y1;
     };
     int cell_along(int subpixel, int first) const {
-        return std::clamp((subpixel - first) >> cell_shift_, 0, cells_ - 1);
+        const std::int64_t cell =
+            (std::int64_t{subpixel} - first) >> cell_shift_;  // the box of no place is the widest, inside out
+        return static_cast<int>(std::clamp<std::int64_t>(cell, 0, cells_ - 1));
     }
     Range range_of(const Box& box) const {
         return {cell_along(box.low.x, corner_.x), cell_along(box.high.x, corner_.x), cell_along(box.low.y, corner_.y),
