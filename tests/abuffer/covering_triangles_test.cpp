@@ -8,6 +8,7 @@
 #include "abuffer/edges/occluder.h"
 #include "abuffer/fine/fine_cells.h"
 #include "abuffer/fine/fine_edges.h"
+#include "abuffer/screen/triangle_bins.h"
 #include "kernels/screen_triangles.h"
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
@@ -58,7 +59,8 @@ TEST(CoveringTriangles, AreThoseWithAllCornersOfABlockAndAreInEachCell) {
         const Scene scene = scene_of({random_triangles(random, seed % 2 == 0 ? 40 : 1500)});
         const Frame frame =
             make_frame(scene, perspective_camera({0, 0, 4}, {0, 0, 0}), kSize, kSize, {0, 0, kSize, kSize});
-        const ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), 1);
+        ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), 1);
+        const TriangleBins bins(screen, {0, 0, kSize, kSize}, 2, best_kernels(), 1);  // it says how triangles face
         std::vector<CrossedTriangle> triangles;
         for (std::uint32_t n = 0; n < screen.triangle_count(); ++n) {
             const Facing facing = screen.facing(n);
