@@ -98,22 +98,29 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
         }
         add(a, a.pixel, b.pixel, center, pieces, &b);
     };
+    const auto ends_in = [](const LineCrossing& c, glm::dvec2 p) {
+        return has_edge(c) && (p == c.edge_ends[0] || p == c.edge_ends[1]);
+    };
     /// The corner in the cell at which a crossing's edge meets that of another one.
     const auto corner_of = [&](const LineCrossing& c) -> std::optional<glm::dvec2> {
         if (!has_edge(c)) return std::nullopt;
         for (const glm::dvec2& p : c.edge_ends) {
             if (!is_inside(p, low, high)) continue;
             for (const LineCrossing* const other : crossings) {
-                if (other->line != c.line && has_edge(*other) && (p == other->edge_ends[0] || p == other->edge_ends[1]))
-                    return p;
+                if (other->line != c.line && ends_in(*other, p)) return p;
             }
         }
         return std::nullopt;
     };
-    /// Ends a crossing's line at its corner, or at the line between two others.
-    const auto end_at = [&](const LineCrossing& c, glm::dvec2 from, glm::dvec2 to) {
-        if (const auto corner = corner_of(c)) return add(c, c.pixel, *corner, center, pieces);
-        const glm::dvec2 along = to - from;
+    /// Ends a crossing's line at its corner, or at the line between the crossings of the nearest line, behind which a
+    /// corner is hidden unless that line comes from it.
+    const auto end_at = [&](const LineCrossing& c, const LineCrossing& first, const LineCrossing& second) {
+        const glm::dvec2 from = first.pixel, to = second.pixel, along = to - from;
+        if (const auto corner = corner_of(c)) {
+            const bool is_beyond = cross(along, c.pixel - from) * cross(along, *corner - from) < 0;
+            if (!is_beyond || (ends_in(first, *corner) && ends_in(second, *corner)))
+                return add(c, c.pixel, *corner, center, pieces);
+        }
         const double length = glm::dot(along, along);
         const double t = length > 0 ? std::clamp(glm::dot(c.pixel - from, along) / length, 0.0, 1.0) : 0.0;
         glm::dvec2 end = from + along * t;
@@ -165,7 +172,7 @@ void trace_cell(std::span<const LineCrossing* const> crossings, glm::dvec2 low, 
         join(*sorted[2], *sorted[3]);
         return;
     }
-    for (std::size_t i = 2; i < crossings.size(); ++i) end_at(*sorted[i], sorted[0]->pixel, sorted[1]->pixel);
+    for (std::size_t i = 2; i < crossings.size(); ++i) end_at(*sorted[i], *sorted[0], *sorted[1]);
 }
 
 }  // namespace burin

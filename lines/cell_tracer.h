@@ -16,7 +16,7 @@ namespace burin {
 ///
 /// Two crossings are joined; where they belong to two lines, by way of the corner in which these meet, if it lies in
 /// the cell or, where one of them is an intersection, just beyond. Where three or four come together, the nearest
-/// line goes through and the others end at it, but for those whose edges meet at a corner in the cell: they end there.
+/// line goes through and the others end at it, but for those whose edges meet at a corner before it: they end there.
 /// A single one runs on to the end of its edge.
 ///
 /// `low` and `high` are the positions of the cell's upper left and lower right sample. `has_bridges`: two lines that

@@ -201,6 +201,41 @@ TEST(VectorDrawings, LinesOfANetAreNotCutWhereTheyCross) {
     }
 }
 
+/// A plate ends just before a place where four edges meet: they end at its border, and do not go on to one another.
+TEST(VectorDrawings, LinesEndAtWhatHidesTheirCorner) {
+    constexpr double kPx = 0.02;
+    int ends = 0;
+    for (std::uint64_t trial = 0; trial < 100; ++trial) {
+        Random random(trial);
+        const double hidden_px = random.real(0.02, 0.4), turn_deg = random.real(0, 360), turn = glm::radians(turn_deg);
+        const glm::dvec2 corner_px(random.real(-0.5, 0.5), random.real(-0.5, 0.5));
+        const glm::dvec2 inwards(std::cos(turn), -std::sin(turn));  // from the border into the plate
+        const auto plane = [](const char* name, double size, int parts, double turned_deg, glm::dvec2 at_px, double y) {
+            const glm::dvec2 at = kPx * at_px;
+            return "[[object]]\nshape='plane'\nname='" + std::string(name) + "'\nsize=[" + std::to_string(size) + "," +
+                   std::to_string(size) + "]\ncolumns=" + std::to_string(parts) + "\nrows=" + std::to_string(parts) +
+                   "\nrotate=[0," + std::to_string(turned_deg) + ",0]\ntranslate=[" + std::to_string(at.x) + "," +
+                   std::to_string(y) + "," + std::to_string(at.y) + "]\n";
+        };
+        const std::string camera = "eye=[0,10,0]\ntarget=[0,0,0]\nup=[0,0,-1]\nheight=" + std::to_string(kHeight * kPx);
+        const std::string net = plane("net", 3, 2, random.real(0, 90), corner_px, 0);
+        const std::string plate = plane("plate", 2, 1, turn_deg, corner_px + (50 - hidden_px) * inwards, 1);
+        ShadedScene scene(scene_with(camera, net + plate), sheet_of("'border','polygon'", "width=1"), kWidth, kHeight);
+        const VectorDrawing drawing = drawing_of(scene);
+        for (const VectorPath& path : drawing.paths) {
+            if (path.object == 0 || drawing.objects[path.object - 1] != "net") continue;
+            for (const glm::dvec2& p : flattened(drawing, path)) {
+                const glm::dvec2 from_corner = p - 0.5 * glm::dvec2(kWidth, kHeight) - corner_px;
+                const double behind_px = glm::dot(from_corner, inwards) + hidden_px;
+                if (glm::length(from_corner) > 10) continue;
+                EXPECT_LT(behind_px, 0.03) << trial;
+                ends += std::abs(behind_px) < 0.03;
+            }
+        }
+    }
+    EXPECT_GT(ends, 150);
+}
+
 TEST(VectorDrawings, PartsOfOneEdgeHaveOneName) {
     // A wall in front of the middle of a long box.
     const std::string scene = scene_with("eye=[0,1.5,8]\ntarget=[0,0,0]\n",
