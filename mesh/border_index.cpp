@@ -290,7 +290,7 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
 
 BorderIndex::Neighbourhood BorderIndex::neighbourhood(HalfEdge half_edge, const glm::dvec3& at) const {
     // Others are looked for somewhat farther away, so that the answer holds for some places around.
-    const double kFarther = std::min(0.25 * kWidestReachPart, 1 * reach_part_);
+    const double farther = std::min(0.25 * kWidestReachPart, reach_part_);
     Neighbourhood found;
     found.at_ = at;
     const Segment* const own = find(half_edge);
@@ -298,7 +298,7 @@ BorderIndex::Neighbourhood BorderIndex::neighbourhood(HalfEdge half_edge, const 
     const glm::dvec3 along = direction_of(*own);
     const double length = glm::length(along);
     found.reach_ = reach_part_ * length;
-    found.others_ = has_partners() ? found.reach_ + kFarther * length : std::numeric_limits<double>::infinity();
+    found.others_ = has_partners() ? found.reach_ + farther * length : std::numeric_limits<double>::infinity();
     if (!has_partners()) return found;
     visit_nearest(along / length, at, found.others_, [&](std::uint32_t i) {
         const Segment& other = segments_[i];
