@@ -24,13 +24,13 @@ struct KnownOrder {
 };
 
 /// Some pairs of triangles of one SurfaceSet whose order is known: a later one takes an earlier one's place.
-/// For one thread; 2.5 MB from the first pair on.
+/// For one thread; 2.4 MB from the first pair on.
 class OrderMemory {
   public:
     static constexpr std::size_t kMost = std::size_t{1} << 15;
     explicit OrderMemory(std::size_t most = kMost) : most_(most) {}
 
-    /// `find`: returns the KnownOrder of a pair that is not known. Valid until the next call.
+    /// `find`: returns the KnownOrder of a pair that is not known. The result is valid until the next call.
     template <typename Find>
     const KnownOrder& get(SurfaceId a, SurfaceId b, const Find& find) {
         if (entries_.empty()) entries_.resize(most_);

@@ -90,14 +90,14 @@ class PairSearch {
         SurfaceId a, b;
         double least_gap_px, greatest_gap_px;
     };
-    struct Facet {
+    struct AreaOfSurface {
         SurfaceId surface;
         glm::dvec3 area;
     };
     struct Neighbours {
-        std::array<Facet, 3> facets;
+        std::array<AreaOfSurface, 3> areas;
         std::size_t count = 0;
-        std::span<const Facet> all() const { return {facets.data(), count}; }
+        std::span<const AreaOfSurface> all() const { return {areas.data(), count}; }
     };
 
     void begin() {
@@ -123,17 +123,17 @@ class PairSearch {
             const Pair pair = *best;
             open_.erase(best);
             const Neighbours of_a = neighbours(pair.a), of_b = neighbours(pair.b);
-            const std::span<const Facet> beside_a = of_a.all(), beside_b = of_b.all();
-            for (const Facet& a : beside_a) {
+            const std::span<const AreaOfSurface> beside_a = of_a.all(), beside_b = of_b.all();
+            for (const AreaOfSurface& a : beside_a) {
                 if (!add(a.surface, pair.b)) return false;
             }
-            for (const Facet& b : beside_b) {
+            for (const AreaOfSurface& b : beside_b) {
                 if (!add(pair.a, b.surface)) return false;
             }
             // Where both go on over an edge at one place, not even a sliver of a neighbour may lie before the other
             // one.
-            for (const Facet& a : beside_a) {
-                for (const Facet& b : beside_b) {
+            for (const AreaOfSurface& a : beside_a) {
+                for (const AreaOfSurface& b : beside_b) {
                     if (are_parallel(a.area, b.area) && !add(a.surface, b.surface))
                         known_.take_back();  // it is no neighbour yet
                 }
@@ -175,7 +175,7 @@ class PairSearch {
             const glm::dvec3 across = glm::cross(to - from, to_eye);
             if (!(glm::dot(across, corner(h, 2) - from) * glm::dot(across, corner(g, 2) - from) < 0)) continue;
             const SurfaceId beyond{s.instance, g / 3};
-            found.facets[found.count++] = {beyond, area_of(beyond)};
+            found.areas[found.count++] = {beyond, area_of(beyond)};
         }
         return found;
     }
