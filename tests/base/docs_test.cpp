@@ -91,9 +91,12 @@ TEST(Docs, ReadmesNameTheFilesOfTheirFolder) {
 }
 
 TEST(Docs, ReadmesOfFoldersAreShort) {
-    for (const auto& folder : fs::directory_iterator(kRoot)) {
-        const std::string text = text_of(folder.path() / "README.md");
-        EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 30) << folder.path();
+    std::vector<std::string> folders = kFolders;
+    folders.insert(folders.end(), {"tests", "fuzz", "scripts", "scenes", "styles"});
+    for (const std::string& folder : folders) {
+        const std::string text = text_of(kRoot / folder / "README.md");
+        EXPECT_FALSE(text.empty()) << folder;
+        EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 30) << folder;
     }
 }
 
