@@ -72,8 +72,9 @@ std::string why(const ExplainedStroke& stroke) {
         }
         case LineClass::polygon:
             return "two of its polygons have this edge";
+        default:  // a class without words of its own
+            return "this class applies to it";
     }
-    return {};
 }
 
 std::string reason_of(const ExplainedStroke& stroke) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace burin {
 namespace {
@@ -12,7 +13,7 @@ using R = ValueRate;
 using T = VariableTier;
 using K = NameKind;
 
-constexpr std::array<VariableRow, kVariableCount> kTable = {{
+constexpr auto kBeforeClasses = std::to_array<VariableRow>({
     {V::x, "x", number, "px", "", R::sample, T::piece, K::none,
      "to the right on the full picture; pixel 0 covers 0 to 1"},
     {V::y, "y", number, "px", "", R::sample, T::piece, K::none, "down on the full picture; pixel 0 covers 0 to 1"},
@@ -49,16 +50,9 @@ constexpr std::array<VariableRow, kVariableCount> kTable = {{
      "0 where the front side is in shadow or turned away from the key light, else 1"},
     {V::drawn_class, "class", number, "", "names", R::piece, T::piece, K::line_class,
      "class as drawn: `class == \"crease\"`"},
-    {V::is_mark, "is_mark", number, "", "0, 1", R::piece, T::piece, K::none,
-     "whether the class `mark` applies, be it the one as drawn or not"},
-    {V::is_border, "is_border", number, "", "0, 1", R::piece, T::piece, K::none, "the same of `border`"},
-    {V::is_silhouette, "is_silhouette", number, "", "0, 1", R::piece, T::piece, K::none, "the same of `silhouette`"},
-    {V::is_intersection, "is_intersection", number, "", "0, 1", R::piece, T::piece, K::none,
-     "the same of `intersection`"},
-    {V::is_object, "is_object", number, "", "0, 1", R::piece, T::piece, K::none, "the same of `object`"},
-    {V::is_material, "is_material", number, "", "0, 1", R::piece, T::piece, K::none, "the same of `material`"},
-    {V::is_crease, "is_crease", number, "", "0, 1", R::piece, T::piece, K::none, "the same of `crease`"},
-    {V::is_polygon, "is_polygon", number, "", "0, 1", R::piece, T::piece, K::none, "the same of `polygon`"},
+});
+
+constexpr auto kBehindClasses = std::to_array<VariableRow>({
     {V::object, "object", number, "", "names", R::piece, T::piece, K::object,
      "object of the front side: `object == \"wheel*\"`; as a number from 1"},
     {V::material, "material", number, "", "names", R::piece, T::piece, K::material,
@@ -104,7 +98,53 @@ constexpr std::array<VariableRow, kVariableCount> kTable = {{
     {V::time, "time", number, "s", "", R::frame, T::piece, K::none, "`frame` over `[frames] fps`"},
     {V::width_px, "width_px", number, "px", "", R::frame, T::piece, K::none, "width of the picture"},
     {V::height_px, "height_px", number, "px", "", R::frame, T::piece, K::none, "height of the picture"},
-}};
+});
+
+/// A text made of others.
+struct Text {
+    std::array<char, 80> characters{};
+    std::size_t size = 0;
+
+    constexpr Text(std::string_view begin, std::string_view middle, std::string_view end) {
+        for (const std::string_view part : {begin, middle, end}) {
+            for (const char c : part) characters[size++] = c;
+        }
+    }
+    constexpr std::string_view view() const { return {characters.data(), size}; }
+};
+
+template <std::size_t... numbers>
+constexpr std::array<Text, sizeof...(numbers)> texts_of_classes(const auto& text_of, std::index_sequence<numbers...>) {
+    return {text_of(static_cast<LineClass>(numbers))...};
+}
+constexpr auto kClasses = std::make_index_sequence<kLineClassCount>();
+constexpr auto kClassNames = texts_of_classes([](LineClass c) { return Text("is_", name_of(c), ""); }, kClasses);
+constexpr auto kClassMeanings = texts_of_classes(
+    [](LineClass c) {
+        return c == LineClass{} ? Text("whether the class `", name_of(c), "` applies, be it the one as drawn or not")
+                                : Text("the same of `", name_of(c), "`");
+    },
+    kClasses);
+
+constexpr std::array<VariableRow, kVariableCount> table() {
+    static_assert(kBeforeClasses.size() + kLineClassCount + kBehindClasses.size() == kVariableCount);
+    std::array<VariableRow, kVariableCount> rows{};
+    auto next = std::copy(kBeforeClasses.begin(), kBeforeClasses.end(), rows.begin());
+    for (std::size_t i = 0; i < kLineClassCount; ++i) {
+        *next++ = {is_class(static_cast<LineClass>(i)),
+                   kClassNames[i].view(),
+                   number,
+                   "",
+                   "0, 1",
+                   R::piece,
+                   T::piece,
+                   K::none,
+                   kClassMeanings[i].view()};
+    }
+    std::copy(kBehindClasses.begin(), kBehindClasses.end(), next);
+    return rows;
+}
+constexpr std::array<VariableRow, kVariableCount> kTable = table();
 
 constexpr bool is_in_order() {
     for (std::size_t i = 0; i < kVariableCount; ++i) {
@@ -113,16 +153,6 @@ constexpr bool is_in_order() {
     return true;
 }
 static_assert(is_in_order());
-
-constexpr bool has_a_row_for_each_class() {
-    for (int c = 0; c < kLineClassCount; ++c) {
-        const auto line_class = static_cast<LineClass>(c);
-        const std::string_view name = kTable[static_cast<std::size_t>(is_class(line_class))].name;
-        if (name.substr(0, 3) != "is_" || name.substr(3) != name_of(line_class)) return false;
-    }
-    return true;
-}
-static_assert(has_a_row_for_each_class(), "each class has a variable is_NAME, in the same order");
 
 constexpr auto kLaterClasses = std::to_array<std::string_view>({"suggestive", "ridge", "valley", "light", "shadow"});
 

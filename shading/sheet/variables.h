@@ -38,15 +38,9 @@ enum class Variable : std::uint8_t {
     light,
     light2,
     lit,
-    drawn_class,  ///< "class"
-    is_mark,      // and the other classes in their order
-    is_border,
-    is_silhouette,
-    is_intersection,
-    is_object,
-    is_material,
-    is_crease,
-    is_polygon,
+    drawn_class,     ///< "class"
+    is_class_first,  ///< "is_mark", and one for each other class in their order
+    is_class_last = is_class_first + kLineClassCount - 1,
     object,
     material,
     object2,
@@ -80,11 +74,11 @@ enum class Variable : std::uint8_t {
 constexpr std::size_t kVariableCount = static_cast<std::size_t>(Variable::height_px) + 1;
 
 constexpr Variable is_class(LineClass c) {
-    return static_cast<Variable>(static_cast<int>(Variable::is_mark) + static_cast<int>(c));
+    return static_cast<Variable>(static_cast<int>(Variable::is_class_first) + static_cast<int>(c));
 }
 /// The class that a variable asks for, if it is one that is_class() returns.
 constexpr std::optional<LineClass> class_asked_by(Variable v) {
-    const int c = static_cast<int>(v) - static_cast<int>(Variable::is_mark);
+    const int c = static_cast<int>(v) - static_cast<int>(Variable::is_class_first);
     return c >= 0 && c < kLineClassCount ? std::optional(static_cast<LineClass>(c)) : std::nullopt;
 }
 
