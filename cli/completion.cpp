@@ -99,7 +99,7 @@ std::optional<Values> values_of_option(std::string_view command, std::string_vie
         {"--hidden", {{"none", "solid", "dashed"}}},
         {"--paper", {paper_names()}},
         {"--unit", {{"mm", "cm", "m", "in", "ft"}}},
-        {"--views", {and_also(words_of(kStandardViewNames), {"iso+hidden"}), true}},
+        {"--views", {words_of(kStandardViewNames), true}},
         {"--projection", {{"first", "third"}}},
         {"--mask", {{"16", "64", "256"}}},
         {"--samples", {{"2", "4", "8"}}},
