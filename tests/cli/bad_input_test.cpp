@@ -21,9 +21,7 @@ namespace fs = std::filesystem;
 const std::vector<std::string> kExtensions = {".obj", ".ply", ".stl", ".off", ".gltf", ".glb", ".toml"};
 
 ProgramResult render(const TemporaryFolder& folder, const std::string& input) {
-    ProgramOptions options;
-    options.time_limit_s = kReadingLimit_s;
-    return run_burin(folder.path(), {"render", input, "-r", "16x12", "-o", "out.exr"}, options);
+    return run_burin(folder.path(), {"render", input, "-r", "16x12", "-o", "out.exr"});
 }
 
 /// Expects a failure that names the input, or another file in its place.

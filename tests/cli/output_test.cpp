@@ -23,6 +23,14 @@ using Arguments = std::vector<std::string>;
 class Output : public testing::Test {
   protected:
     Output() { folder_.write("cube.obj", kCubeObj); }
+    /// Loads what writes TIFF once without the usual limit: from a slow disk its libraries, 360 MB, may take long.
+    static void SetUpTestSuite() {
+        const TemporaryFolder folder;
+        ProgramOptions options;
+        options.time_limit_s = 120;
+        const ProgramResult result = run_burin(folder.path(), {"render", "missing.obj", "-o", "out.tif"}, options);
+        ASSERT_EQ(result.status, 1) << result.err;
+    }
 
     ProgramResult render(const std::string& output, const ProgramOptions& options = {},
                          const Arguments& more = {}) const {

@@ -14,13 +14,9 @@ constexpr bool kSanitized = true;
 constexpr bool kSanitized = false;
 #endif
 
-/// What small files are read and refused within, in seconds, however they are made.
-constexpr int kReadingLimit_s = kSanitized ? 60 : 10;
-
 /// How the program is run, beyond its arguments.
 struct ProgramOptions {
-    /// Only what hangs takes so long: the first TIFF that a slow disk's machine writes reads 360 MB of libraries.
-    int time_limit_s = 60;
+    int time_limit_s = kSanitized ? 60 : 10;
     std::optional<std::size_t> file_size_limit;  ///< bytes; what a full disk looks like
     std::optional<std::size_t> memory_limit;     ///< bytes, less than what every run is limited to
     std::vector<int> closed_streams;             ///< standard streams that are closed: 0, 1, 2
