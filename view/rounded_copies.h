@@ -6,8 +6,8 @@
 
 namespace burin {
 
-/// Searches around many pairs of triangles come to the same pairs again and again: with a `memory`, which belongs to
-/// one thread, these are compared once. The answers are the same.
+// Searches around many pairs of triangles come to the same pairs again and again: with a `memory`, which belongs to one
+// thread, these are compared once. The answers are the same.
 
 /// Whether two triangles that overlap at a place on the screen belong to surfaces that stay so near each other around
 /// them that nobody sees where they pass through each other (docs/decisions/0017-rounded-copies.md).

@@ -84,6 +84,7 @@ struct SurfaceSet {
     }
     /// How the polygons of two triangles lie to each other, or the two triangles, if the polygons have many corners.
     /// Not all places are looked at where they are apart. For triangles of one polygon all is false.
+    /// `memory`: keeps what searches for rounded copies compare, for the next ones; the answer is the same without it.
     SurfaceOrder order(SurfaceId a, SurfaceId b, OrderMemory* memory = nullptr) const;
     /// How the planes of the two triangles lie to each other at a place on the screen, in pixels.
     SurfaceOrder order_at(SurfaceId a, SurfaceId b, glm::dvec2 place) const { return compare(a, b, &place); }

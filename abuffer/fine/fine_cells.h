@@ -70,8 +70,8 @@ class FineCells {
         int x0, x1, y0, y1;
     };
     int cell_along(int subpixel, int first) const {
-        const std::int64_t cell =
-            (std::int64_t{subpixel} - first) >> cell_shift_;  // the box of no place is the widest, inside out
+        // The box of a triangle that is nowhere on the screen has the least and the greatest int as its corners.
+        const std::int64_t cell = (std::int64_t{subpixel} - first) >> cell_shift_;
         return static_cast<int>(std::clamp<std::int64_t>(cell, 0, cells_ - 1));
     }
     Range range_of(const Box& box) const {
