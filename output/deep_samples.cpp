@@ -45,6 +45,8 @@ class LayeredSum {
     double last_alpha(const glm::dvec4& whole) const { return std::clamp(1.0 - (1.0 - whole.a) / left_, 0.0, 1.0); }
     glm::dvec3 last_color(const glm::dvec4& whole) const { return glm::max((glm::dvec3(whole) - color_) / left_, 0.0); }
     bool has_any_left() const { return left_ > kNothing; }
+    /// Of all layers over each other, as they were rounded.
+    const glm::dvec3& color() const { return color_; }
     double left() const { return left_; }
 
   private:
@@ -136,9 +138,13 @@ float DeepSampler::z_of(float distance) const {
     return std::clamp(z, std::numeric_limits<float>::min(), std::numeric_limits<float>::max());
 }
 
-float DeepSampler::rounded(double value) const {
+double DeepSampler::rounded(double value) const {
     const auto number = static_cast<float>(value);
-    return is_float_ ? number : float_from_half(Film::to_half(number));
+    return static_cast<double>(is_float_ ? number : float_from_half(Film::to_half(number)));
+}
+
+glm::dvec3 DeepSampler::rounded(const glm::dvec3& color) const {
+    return {rounded(color.r), rounded(color.g), rounded(color.b)};
 }
 
 void DeepSampler::find_parts(const Mattes::DeepPixel& pixel) {
@@ -181,8 +187,8 @@ DeepSample& DeepSampler::add_sample(const Part& part, double alpha, const glm::d
     if (samples_.size() > 1)
         sample.z =
             std::max(sample.z, std::nextafter(samples_[samples_.size() - 2].z, std::numeric_limits<float>::max()));
-    sample.alpha = rounded(alpha);
-    for (int c = 0; c < 3; ++c) sample.color[c] = rounded(color[c]);
+    sample.alpha = static_cast<float>(rounded(alpha));
+    sample.color = glm::vec3(rounded(color));
     const MatteOwner& owner = part.line != nullptr ? part.line->line.owner : part.surface->owner;
     sample.object = objects_.id_of(owner.object);
     sample.material = materials_.id_of(owner.material);
@@ -192,61 +198,95 @@ DeepSample& DeepSampler::add_sample(const Part& part, double alpha, const glm::d
     return sample;
 }
 
-double DeepSampler::find_line_alphas(double more) {
-    line_alphas_.clear();
+/// Gives what the layers are over each other, colour and alpha.
+glm::dvec4 DeepSampler::find_surface_layers() {
+    surface_layers_.clear();
+    LayeredSum sum;
+    glm::dvec3 color(0.0);
+    std::size_t count = 0;
+    for (const Part& part : parts_) {
+        if (part.line != nullptr) continue;
+        color += part.color;
+        ++count;
+    }
+    glm::dvec3 rest = as_on_film(color);
+    for (const Part& part : parts_) {
+        if (part.line != nullptr || !sum.has_any_left()) continue;
+        const glm::dvec3 own_color = --count == 0 ? rest : part.color;
+        rest -= part.color;
+        const Layer& layer = surface_layers_.emplace_back(
+            Layer{&part, rounded(sum.alpha_of_surface(part.share)), rounded(sum.color_for(own_color))});
+        sum.add(layer.alpha, layer.color);
+    }
+    return {sum.color(), 1.0 - sum.left()};
+}
+
+double DeepSampler::find_line_layers(const glm::dvec4& surfaces, const glm::dvec4& whole, const More& more) {
+    line_layers_.clear();
     LayeredSum sum;
     ClassShares classes;
+    std::size_t lines_left = 0;
     for (const Part& part : parts_) {
-        if (part.line != nullptr) classes.expect(part.line->line.drawn_as, part.share);
+        if (part.line == nullptr) continue;
+        classes.expect(part.line->line.drawn_as, part.share);
+        ++lines_left;
     }
+    std::size_t largest = 0;
+    double left_of_largest = 1;
     for (const Part& part : parts_) {
         if (part.line == nullptr || !sum.has_any_left()) continue;
         const LineClass c = part.line->line.drawn_as;
-        const double share = std::max(classes.next(c, part.share) + (line_alphas_.empty() ? more : 0.0), 0.0);
-        const auto alpha = static_cast<double>(rounded(sum.alpha_of_line(share)));
-        line_alphas_.push_back(alpha);
-        classes.add(c, alpha * sum.left());
-        sum.add(alpha, glm::dvec3(0.0));
+        const double left = sum.left();
+        double share = classes.next(c, part.share);
+        if (line_layers_.empty()) share += more.of_nearest;
+        if (--lines_left == 0) share += more.of_farthest * left;
+        share = std::max(share, 0.0);
+        const Layer& layer = line_layers_.emplace_back(
+            Layer{&part, rounded(sum.alpha_of_line(share)), rounded(glm::max(part.color / left, 0.0))});
+        classes.add(c, layer.alpha * left);
+        sum.add(layer.alpha, layer.color);
+        if (part.share <= line_layers_[largest].part->share) continue;
+        largest = line_layers_.size() - 1;
+        left_of_largest = left;
     }
-    return classes.largest_error();
+    double off = std::abs(1.0 - sum.left() * (1.0 - surfaces.a) - whole.a);
+    // What rounding took or added is made up for by the line that has most.
+    glm::dvec3& color = line_layers_[largest].color;
+    const glm::dvec3 others = sum.color() - color * left_of_largest + glm::dvec3(surfaces) * sum.left();
+    const glm::dvec3 wanted = glm::dvec3(whole) - others;
+    color = rounded(glm::max(wanted / left_of_largest, 0.0));
+    for (int c = 0; c < 3; ++c) off = std::max(off, std::abs(wanted[c] - color[c] * left_of_largest));
+    return std::max(classes.largest_error(), off / 2);
 }
 
-void DeepSampler::find_line_alphas() {
-    // An alpha above 1/2 is off by up to 2.4e-4. Where it is, a little more or less of the line in front of it helps.
-    constexpr double kBearable = 2e-4;
-    double best = 0, least = find_line_alphas(0.0);
+void DeepSampler::find_line_layers(const glm::dvec4& surfaces) {
+    // An alpha above 1/2 is off by up to 2.4e-4, and so is the film. Where both are, a little more or less of the line
+    // in front of it helps, or a step of its own.
+    constexpr double kBearable = 2e-4, kStep = 4.9e-4;
+    const glm::dvec4 whole = beauty();
+    More best;
+    double least = find_line_layers(surfaces, whole, best);
     if (least <= kBearable) return;
-    for (const double more : {6e-5, -6e-5, 1.2e-4, -1.2e-4}) {
-        const double error = find_line_alphas(more);
-        if (error >= least) continue;
-        least = error;
-        best = more;
+    for (const double of_farthest : {0.0, kStep, -kStep}) {
+        for (const double of_nearest : {0.0, 6e-5, -6e-5, 1.2e-4, -1.2e-4, 2.4e-4, -2.4e-4}) {
+            const More more{of_nearest, of_farthest};
+            const double error = find_line_layers(surfaces, whole, more);
+            if (error >= least) continue;
+            least = error;
+            best = more;
+        }
     }
-    find_line_alphas(best);
+    find_line_layers(surfaces, whole, best);
 }
 
 /// Where all lines are in front: surfaces have the samples that they would have without these.
 void DeepSampler::lay_lines_first() {
-    find_line_alphas();
-    LayeredSum lines, surfaces;
-    glm::dvec3 color(0.0);
-    std::size_t surface_count = 0, line_count = 0;
-    for (const Part& part : parts_) {
-        if (part.line != nullptr) continue;
-        color += part.color;
-        ++surface_count;
-    }
-    glm::dvec3 rest = as_on_film(color);
-    for (const Part& part : parts_) {
-        LayeredSum& sum = part.line != nullptr ? lines : surfaces;
-        if (!sum.has_any_left()) continue;
-        const bool is_last = part.surface != nullptr && --surface_count == 0;
-        const glm::dvec3 own_color = is_last ? rest : part.color;
-        if (part.surface != nullptr) rest -= part.color;
-        const double alpha = part.line != nullptr ? line_alphas_[line_count++] : sum.alpha_of_surface(part.share);
-        const DeepSample& sample = add_sample(part, alpha, sum.color_for(own_color));
-        sum.add(static_cast<double>(sample.alpha), glm::dvec3(sample.color));
-    }
+    const glm::dvec4 surfaces = find_surface_layers();
+    line_layers_.clear();
+    const auto is_line = [](const Part& part) { return part.line != nullptr; };
+    if (std::any_of(parts_.begin(), parts_.end(), is_line)) find_line_layers(surfaces);
+    for (const Layer& layer : line_layers_) add_sample(*layer.part, layer.alpha, layer.color);
+    for (const Layer& layer : surface_layers_) add_sample(*layer.part, layer.alpha, layer.color);
 }
 
 /// The beauty on the film, which is rounded with each kind of ink that is laid over it.

@@ -48,25 +48,38 @@ class DeepSampler {
         double share = 0;       // of the pixel: of a surface before lines are drawn, of a line as it is seen
         glm::dvec3 color{0.0};  // times the share
     };
+    /// A sample of a part, rounded.
+    struct Layer {
+        const Part* part = nullptr;
+        double alpha = 0;
+        glm::dvec3 color{0.0};  // times alpha
+    };
     void find_parts(const Mattes::DeepPixel& pixel);
     glm::dvec4 beauty() const;
     void lay_in_turns();
-    /// Fills line_alphas_ so that classes have what the film has, as far as half precision allows.
-    void find_line_alphas();
-    /// The same with so much more for the nearest line. Gives how far the sum of a class is off, at most.
-    double find_line_alphas(double more);
+    glm::dvec4 find_surface_layers();
+    /// Fills line_layers_ so that the classes and, over `surfaces`, the beauty have what the film has, as far as half
+    /// precision allows.
+    void find_line_layers(const glm::dvec4& surfaces);
+    /// What lines are given besides their shares: the nearest one a share, the farthest one an alpha.
+    struct More {
+        double of_nearest = 0, of_farthest = 0;
+    };
+    /// The same with so much more. Gives how far a class or the beauty is off, at most.
+    double find_line_layers(const glm::dvec4& surfaces, const glm::dvec4& whole, const More& more);
     void lay_lines_first();
     void add_hidden(const Mattes::DeepPixel& pixel);
     DeepSample& add_sample(const Part& part, double alpha, const glm::dvec3& color);
     float z_of(float distance) const;
-    float rounded(double value) const;
+    double rounded(double value) const;
+    glm::dvec3 rounded(const glm::dvec3& color) const;
 
     bool is_float_, is_orthographic_;
     double nearest_ = 0;  // of an orthographic view: the scene's nearest point
     Names classes_, materials_, objects_;
-    std::vector<Part> parts_;          // of a pixel, nearest first
-    std::vector<double> line_alphas_;  // of the lines among them that are seen, as they were rounded
-    double left_ = 1;                  // of surfaces, by lines
+    std::vector<Part> parts_;  // of a pixel, nearest first
+    std::vector<Layer> line_layers_, surface_layers_;
+    double left_ = 1;  // of surfaces, by lines
     bool has_line_behind_ = false;
     bool is_mean_ = false;
     std::vector<DeepSample> samples_;

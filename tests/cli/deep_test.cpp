@@ -21,7 +21,8 @@ namespace {
 std::string scene_file(const std::string& name) { return std::string(BURIN_SOURCE_FOLDER) + "/scenes/" + name; }
 
 ProgramResult render(const TemporaryFolder& folder, const std::string& scene, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"render", scene, "-q", "-r", "96x70"};
+    std::vector<std::string> arguments = {"render", scene, "-q"};
+    if (std::find(more.begin(), more.end(), "-r") == more.end()) arguments.insert(arguments.end(), {"-r", "96x70"});
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_burin(folder.path(), arguments);
 }
@@ -58,6 +59,9 @@ TEST(Deep, FlattensToTheBeautyByOpenExrsReader) {
                                                {scene_file("still_life.toml"), "--style", "pencil"},
                                                {scene_file("still_life.toml"), "--style", "comic"},
                                                {scene_file("still_life.toml"), "-w", "6", "--set", "deep.float=true"},
+                                               {scene_file("still_life.toml"), "-r", "640x480", "--style", "blueprint"},
+                                               {scene_file("flange.toml"), "-r", "320x200", "--style", "pencil"},
+                                               {scene_file("flange.toml"), "-r", "640x480", "--style", "blueprint"},
                                                {scene_file("shaded.toml")},
                                                {scene_file("cage.toml"), "-w", "0.5"},
                                                {scene_file("crossing.toml"), "--samples", "8"},
