@@ -75,17 +75,6 @@ void StrokeClipper::reset(int x0, int y0, int width, int height) {
     behind_.resize(static_cast<std::size_t>(width * height));
 }
 
-bool StrokeClipper::may_hide(const ClipPiece& boundary, const ClipPiece& piece, double radius_px, StrokeSide side) {
-    if (!boundary.occludes || &boundary == &piece) return false;
-    const glm::dvec2 low = glm::min(piece.from, piece.to) - radius_px,
-                     high = glm::max(piece.from, piece.to) + radius_px;
-    const glm::dvec2 b_low = glm::min(boundary.from, boundary.to), b_high = glm::max(boundary.from, boundary.to);
-    if (b_low.x > high.x || b_low.y > high.y || b_high.x < low.x || b_high.y < low.y) return false;
-    if (side != StrokeSide::both) return true;  // its own neighbours bound it
-    return std::min(boundary.depth_from_px, boundary.depth_to_px) <
-           std::max(piece.depth_from_px, piece.depth_to_px) - kFartherPx;
-}
-
 /// Calls visit(pixel, row, bits) for the samples within all sides.
 template <typename Visit>
 void StrokeClipper::for_spans(std::span<const HalfPlane> sides, const Visit& visit) const {
@@ -268,10 +257,20 @@ StrokeCanvas::Box StrokeClipper::pixels_to_add(const StrokeCanvas& onto, bool kn
     return found;
 }
 
+StrokeClipper::Extent StrokeClipper::extent_of(const ClipPiece& boundary) {
+    if (!boundary.occludes) return {};
+    return {glm::min(boundary.from, boundary.to), glm::max(boundary.from, boundary.to),
+            std::min(boundary.depth_from_px, boundary.depth_to_px)};
+}
+
 void StrokeClipper::set_boundaries(std::span<const ClipPiece* const> boundaries) {
     boundaries_ = boundaries;
     ends_.clear();
-    for (const ClipPiece* b : boundaries) ends_.push_back({b->from, b->to});
+    extents_.clear();
+    for (const ClipPiece* b : boundaries) {
+        ends_.push_back({b->from, b->to});
+        extents_.push_back(extent_of(*b));
+    }
     cells_.set(ends_, glm::dvec2(x0_, y0_) + 0.5 * glm::dvec2(width_, height_));
     asked_.assign(boundaries.size(), 0);
     stroke_count_ = 0;
@@ -297,13 +296,20 @@ bool StrokeClipper::is_between(const ClipPiece& boundary, const Frame& frame) co
 /// Adds the shadows of the boundaries that are `ring` cells away.
 void StrokeClipper::find_shadows(int ring, const ClipPiece& piece, const Frame& frame, double radius_px,
                                  StrokeSide side) {
+    const glm::dvec2 low = glm::min(piece.from, piece.to) - radius_px,
+                     high = glm::max(piece.from, piece.to) + radius_px;
+    const double depth_px = std::max(piece.depth_from_px, piece.depth_to_px) - kFartherPx;
+    const auto may_hide = [&](const Extent& e) {
+        if (e.low.x > high.x || e.low.y > high.y || e.high.x < low.x || e.high.y < low.y) return false;
+        return side != StrokeSide::both || e.depth_px < depth_px;  // on one side its own neighbours bound it, too
+    };
     cells_.for_ring(cells_.cells_of({piece.from, piece.to}), ring, [&](std::uint32_t i) {
         if (asked_[i] == stroke_count_) return;
         asked_[i] = stroke_count_;
         ++comparison_count_;
+        if (!may_hide(extents_[i])) return;
         const ClipPiece& boundary = *boundaries_[i];
-        if (!may_hide(boundary, piece, radius_px, side)) return;
-        if (!cells_.is_one() && !is_between(boundary, frame)) return;
+        if (&boundary == &piece || (!cells_.is_one() && !is_between(boundary, frame))) return;
         add_shadows(boundary, piece, frame, radius_px, side);
     });
 }

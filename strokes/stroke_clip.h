@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -44,9 +45,6 @@ class StrokeClipper {
     /// How many times a boundary was compared with a stroke.
     std::uint64_t comparison_count() const { return comparison_count_; }
 
-    /// Whether a boundary hides anything of a stroke along `piece`.
-    static bool may_hide(const ClipPiece& boundary, const ClipPiece& piece, double radius_px, StrokeSide side);
-
   private:
     /// Points p with dot(normal, p) >= offset.
     struct HalfPlane {
@@ -63,8 +61,15 @@ class StrokeClipper {
     struct Behind {
         std::uint32_t one = 0, two = 0, off = 0;
     };
+    /// Where a boundary is, side by side for all of them, since most of them hide nothing. Of one that never does:
+    /// nowhere.
+    struct Extent {
+        glm::dvec2 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
+        double depth_px = 0;  ///< of its nearest end
+    };
     class Frame;
 
+    static Extent extent_of(const ClipPiece& boundary);
     template <typename DrawPen>
     void draw_with(const ClipPiece& piece, double radius_px, StrokeSide side, StrokeCanvas& onto,
                    const DrawPen& draw_pen);
@@ -95,6 +100,7 @@ class StrokeClipper {
     std::span<const ClipPiece* const> boundaries_;
     BoundaryCells cells_;  // of the boundaries
     std::vector<PieceEnds> ends_;
+    std::vector<Extent> extents_;
     std::vector<std::uint32_t> asked_;  // by which stroke each boundary was looked at
     std::uint32_t stroke_count_ = 0;
     std::uint64_t comparison_count_ = 0;
