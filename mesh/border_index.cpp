@@ -288,57 +288,6 @@ std::optional<HalfEdge> BorderIndex::seam_partner(HalfEdge half_edge, const glm:
     return nearest.partner;
 }
 
-BorderIndex::Neighbourhood BorderIndex::neighbourhood(HalfEdge half_edge, const glm::dvec3& at) const {
-    // Others are looked for somewhat farther away, so that the answer holds for some places around.
-    const double farther = std::min(0.25 * kWidestReachPart, reach_part_);
-    Neighbourhood found;
-    found.at_ = at;
-    const Segment* const own = find(half_edge);
-    if (own == nullptr) return found;
-    const glm::dvec3 along = direction_of(*own);
-    const double length = glm::length(along);
-    found.reach_ = reach_part_ * length;
-    found.others_ = has_partners() ? found.reach_ + farther * length : std::numeric_limits<double>::infinity();
-    if (!has_partners()) return found;
-    visit_nearest(along / length, at, found.others_, [&](std::uint32_t i) {
-        const Segment& other = segments_[i];
-        if (!may_be_partners(*own, along, length, other)) return;
-        const double distance = distance_to_segment(at, other.a, other.b);
-        if (distance < found.others_) found.offer(other, distance);
-    });
-    return found;
-}
-
-void BorderIndex::Neighbourhood::offer(const Segment& segment, double distance) {
-    const auto is_known = [&](std::size_t i) { return nearest_[i].half_edge == segment.half_edge; };
-    for (std::size_t i = 0; i < count_; ++i) {
-        if (is_known(i)) return;  // by another piece of it
-    }
-    if (count_ == kMost) {  // the farthest one becomes one of the others
-        if (distance >= distances_[kMost - 1]) {
-            others_ = distance;
-            return;
-        }
-        others_ = distances_[--count_];
-    }
-    std::size_t i = count_++;
-    for (; i > 0 && distances_[i - 1] > distance; --i) {
-        nearest_[i] = nearest_[i - 1];
-        distances_[i] = distances_[i - 1];
-    }
-    nearest_[i] = segment;
-    distances_[i] = distance;
-}
-
-BorderIndex::Neighbourhood::Answer BorderIndex::Neighbourhood::partner_at(const glm::dvec3& place) const {
-    const double away = glm::distance(place, at_);
-    const double others = others_ < std::numeric_limits<double>::infinity() ? (others_ - away) - 1e-9 * (others_ + away)
-                                                                            : others_;  // but for rounding
-    Nearest nearest{reach_, {}};
-    for (std::size_t i = 0; i < count_; ++i) nearest.offer(nearest_[i], place);
-    return {nearest.partner ? nearest.reach < others : others >= reach_, nearest.partner};
-}
-
 bool BorderIndex::find_candidates(HalfEdge half_edge, std::size_t most, SeamCandidates& candidates) const {
     candidates.segments_.clear();
     const Segment* const own = find(half_edge);
@@ -361,15 +310,20 @@ bool BorderIndex::find_candidates(HalfEdge half_edge, std::size_t most, SeamCand
 }
 
 bool BorderIndex::find_near(HalfEdge half_edge, std::size_t most, SeamCandidates& candidates) const {
-    return list_near(half_edge, most, false, candidates);
+    return list_near(half_edge, {}, most, false, candidates);
 }
 
 bool BorderIndex::find_along(HalfEdge half_edge, std::size_t most, SeamCandidates& candidates) const {
-    return list_near(half_edge, most, true, candidates);
+    return find_along(half_edge, {}, most, candidates);
 }
 
-/// Lists the candidates within reach of an edge; counts all segments there, or only those that may be partners.
-bool BorderIndex::list_near(HalfEdge half_edge, std::size_t most, bool counts_partners_only,
+bool BorderIndex::find_along(HalfEdge half_edge, Stretch stretch, std::size_t most, SeamCandidates& candidates) const {
+    return list_near(half_edge, stretch, most, true, candidates);
+}
+
+/// Lists the candidates within reach of a part of an edge; counts all segments there, or only those that may be
+/// partners.
+bool BorderIndex::list_near(HalfEdge half_edge, Stretch stretch, std::size_t most, bool counts_partners_only,
                             SeamCandidates& candidates) const {
     candidates.segments_.clear();
     const Segment* const own = find(half_edge);
@@ -378,7 +332,7 @@ bool BorderIndex::list_near(HalfEdge half_edge, std::size_t most, bool counts_pa
     const double length = glm::length(along);
     candidates.reach_ = reach_part_ * length;
     const double margin = candidates.reach_ * (1 + 1e-3);  // a trifle more, for rounding
-    const glm::dvec3 &a = own->a, &b = own->b;
+    const glm::dvec3 a = glm::mix(own->a, own->b, stretch.begin), b = glm::mix(own->a, own->b, stretch.end);
     most = std::min(most, kMostNear);
     NumberSet seen;
     const auto look_at = [&](std::uint32_t i) {

@@ -61,13 +61,10 @@ class BorderIndex {
     /// Whether any edge may have a partner: not where all borders are one polygon's.
     bool has_partners() const { return reach_part_ > 0; }
 
-    /// The seam partner at a place, with what it says of places near `at`.
-    class Neighbourhood;
-    Neighbourhood neighbourhood(HalfEdge half_edge, const glm::dvec3& at) const;
     /// Whether segments lie over each other by the dozen, so that many come near an edge.
     bool has_crowds() const { return !directed_.is_empty(); }
 
-    /// What seam_partner() chooses from along one edge, wherever the point lies.
+    /// What seam_partner() chooses from along one edge, or a part of it, wherever the point lies on that.
     class SeamCandidates {
       public:
         std::optional<HalfEdge> nearest(const glm::dvec3& at) const;
@@ -88,6 +85,11 @@ class BorderIndex {
     /// The same, but returns false only if there are more than `most` that may be partners: in a heap most that come
     /// near an edge cross it.
     bool find_along(HalfEdge half_edge, std::size_t most, SeamCandidates& candidates) const;
+    /// A part of an edge, in shares of it.
+    struct Stretch {
+        double begin = 0, end = 1;
+    };
+    bool find_along(HalfEdge half_edge, Stretch stretch, std::size_t most, SeamCandidates& candidates) const;
 
     /// Adds the numbers of the segments whose boxes may touch a box, in no order that means anything.
     void find_in_box(const glm::dvec3& low, const glm::dvec3& high, std::vector<std::uint32_t>& found) const;
@@ -101,7 +103,8 @@ class BorderIndex {
     void visit_boxes(const glm::dvec3& low, const glm::dvec3& high, const Visit& visit) const;
     bool has_several_polygons() const;
     double reach_part_in_crowd() const;
-    bool list_near(HalfEdge half_edge, std::size_t most, bool counts_partners_only, SeamCandidates& candidates) const;
+    bool list_near(HalfEdge half_edge, Stretch stretch, std::size_t most, bool counts_partners_only,
+                   SeamCandidates& candidates) const;
     template <typename Visit>
     void visit_nearest(const glm::dvec3& direction, const glm::dvec3& at, const double& reach,
                        const Visit& visit) const;
@@ -113,29 +116,6 @@ class BorderIndex {
     /// told apart, as those of needles through a point, which all have one middle. Empty where directed_ is.
     PointTree<6, float> boxes_;
     DirectedSegments directed_;  // where boxes around whole ones lie over each other by the dozen; else empty
-};
-
-/// The segments nearest to a place on one edge, of which one may be its partner, and how near all others are at least.
-class BorderIndex::Neighbourhood {
-  public:
-    /// The edge's seam_partner() at a place near that; has_answer is false where others may be as near.
-    struct Answer {
-        bool has_answer = false;
-        std::optional<HalfEdge> partner;
-    };
-    Answer partner_at(const glm::dvec3& place) const;
-
-  private:
-    friend class BorderIndex;
-    static constexpr std::size_t kMost = 6;  // both borders of three thin polygons
-    void offer(const Segment& segment, double distance);
-
-    glm::dvec3 at_{0.0};
-    double reach_ = 0;    ///< nearer than this is a partner
-    double others_ = -1;  ///< none but `nearest_` that may be a partner is nearer to `at_`
-    std::size_t count_ = 0;
-    std::array<Segment, kMost> nearest_;  ///< the first ones are so near, in order
-    std::array<double, kMost> distances_{};
 };
 
 }  // namespace burin

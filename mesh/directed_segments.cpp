@@ -13,13 +13,7 @@ using Ends = DirectedSegments::Ends;
 /// Directions as places on a cube, whose sides are cut into squares, with opposite ones together.
 class DirectionCube {
   public:
-    explicit DirectionCube(std::size_t segment_count) {
-        // In a class there are so many segments that looking for it is worth it.
-        constexpr double kPerSquare = 6;
-        constexpr int kMost = 8;
-        along_side_ =
-            std::clamp(static_cast<int>(std::cbrt(static_cast<double>(segment_count)) / kPerSquare), 1, kMost);
-    }
+    explicit DirectionCube(int squares_along_side) : along_side_(squares_along_side) {}
 
     std::size_t count() const { return 3 * squares(); }
     std::size_t class_of(const glm::dvec3& way) const {
@@ -107,16 +101,30 @@ double least_cosine_beside(double least_cosine) {
     return DirectedSegments::kCosParallel * least_cosine - sine_of_parallel * sine - kOfAngles;
 }
 
+/// Numbers of segments by the class of their direction, without empty classes.
+std::vector<std::vector<std::uint32_t>> by_direction(std::span<const Ends> segments) {
+    // In a class there are so many segments that looking for it is worth it; and classes are no more than it takes: of
+    // directions all over space, dozens run along an edge, and each has a tree to be looked at.
+    constexpr double kPerSquare = 6;
+    constexpr int kMostAlongSide = 8;
+    constexpr std::size_t kMostClasses = 64;
+    const auto wanted = static_cast<int>(std::cbrt(static_cast<double>(segments.size())) / kPerSquare);
+    for (int along_side = std::clamp(wanted, 1, kMostAlongSide);; along_side /= 2) {
+        const DirectionCube cube(along_side);
+        std::vector<std::vector<std::uint32_t>> numbers(cube.count());
+        for (std::uint32_t i = 0; i < segments.size(); ++i)
+            numbers[cube.class_of(segments[i].b - segments[i].a)].push_back(i);
+        std::erase_if(numbers, [](const auto& of_class) { return of_class.empty(); });
+        if (numbers.size() <= kMostClasses || along_side == 1) return numbers;
+    }
+}
+
 }  // namespace
 
 DirectedSegments::DirectedSegments(std::span<const Ends> segments) {
     constexpr std::size_t kMostPerSegment = 16, kMostMore = std::size_t{1} << 20;
     const std::size_t most_more = std::min((kMostPerSegment - 1) * segments.size(), kMostMore);
-    const DirectionCube cube(segments.size());
-    std::vector<std::vector<std::uint32_t>> numbers(cube.count());
-    for (std::uint32_t i = 0; i < segments.size(); ++i)
-        numbers[cube.class_of(segments[i].b - segments[i].a)].push_back(i);
-    std::erase_if(numbers, [](const auto& of_class) { return of_class.empty(); });
+    const std::vector<std::vector<std::uint32_t>> numbers = by_direction(segments);
     double width = 0;
     for (const std::vector<std::uint32_t>& of_class : numbers) {
         throw_if_interrupted();

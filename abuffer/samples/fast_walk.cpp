@@ -300,7 +300,7 @@ std::optional<HalfEdge> FastWalker::seam_beyond(std::uint32_t instance, HalfEdge
     // Where that is on the edge in space.
     const double part = surfaces_.projection.orthographic ? along : along * qn / ((1 - along) * qk + along * qn);
     const glm::dvec3 a = mesh.local_position(k), b = mesh.local_position(n);
-    return seams_.partner(mesh.borders, border, glm::mix(a, b, part));
+    return seams_.partner(mesh.borders, border, part, glm::mix(a, b, part));
 }
 
 DepthPlane FastWalker::plane(SurfaceId s) const {

@@ -12,11 +12,12 @@
 namespace burin {
 
 /// BorderIndex::seam_partner() for places that are asked for one after the other along the same edges: remembers which
-/// edges run along each of them, or where they are too many, what is nearest to the last place.
+/// edges run along each of them, or where they are too many, along parts of it.
 class SeamMemory {
   public:
     explicit SeamMemory(KnownSeams& known) : known_(known) {}
-    std::optional<HalfEdge> partner(const BorderIndex& borders, HalfEdge half_edge, const glm::dvec3& at);
+    /// `share`: where the place is on the edge, 0 to 1.
+    std::optional<HalfEdge> partner(const BorderIndex& borders, HalfEdge half_edge, double share, const glm::dvec3& at);
 
   private:
     static constexpr std::size_t kEntries = 512;
@@ -26,7 +27,6 @@ class SeamMemory {
         HalfEdge half_edge = 0;
         Use use = Use::once;
         BorderIndex::SeamCandidates candidates;
-        BorderIndex::Neighbourhood neighbourhood;  ///< where many run along an edge
     };
     /// In a heap a tile shows parts of thousands of edges, and most of them are in the next one, too.
     static constexpr std::size_t kLists = std::size_t{1} << 14;
@@ -36,11 +36,20 @@ class SeamMemory {
         std::shared_ptr<const KnownSeams::Along> along;
     };
     const KnownSeams::Along& list_in_crowd(const BorderIndex& borders, HalfEdge half_edge);
-    static std::optional<HalfEdge> partner_near_last(Entry& entry, const glm::dvec3& at);
+    static constexpr std::size_t kStretches = std::size_t{1} << 12;
+    struct Stretch {
+        const BorderIndex* borders = nullptr;
+        HalfEdge half_edge = 0;
+        std::uint32_t number = 0;
+        bool is_complete = false;
+        BorderIndex::SeamCandidates candidates;
+    };
+    const Stretch& list_along_stretch(const BorderIndex& borders, HalfEdge half_edge, double share);
 
     KnownSeams& known_;
     std::vector<Entry> entries_;
     std::vector<List> lists_;
+    std::vector<Stretch> stretches_;
 };
 
 }  // namespace burin

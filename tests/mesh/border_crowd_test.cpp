@@ -113,37 +113,33 @@ TEST(BorderCrowd, WhatIsSeenNearAPlaceIsFoundAlongTheLineOfSight) {
     EXPECT_GT(left_out, 300);
 }
 
-/// Along one edge, most places need no new search, and the answers are the same.
-TEST(BorderCrowd, NeighbourhoodsTellOfPlacesAround) {
-    int asked = 0, searched = 0, changed = 0;
+/// What runs along a part of an edge has the partners of all places on that part, and few others.
+TEST(BorderCrowd, StretchesHaveThePartnersOfTheirPlaces) {
+    std::size_t places = 0, listed = 0, with_partner = 0, of_whole = 0;
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
         Random random(seed);
         const std::vector<Segment> segments = straws(random, 300, seed % 3 == 0);
         const BorderIndex index(segments);
+        BorderIndex::SeamCandidates along, whole;
         for (std::size_t i = 0; i < segments.size(); i += 7) {
             const Segment& own = segments[i];
-            BorderIndex::Neighbourhood around;
-            std::optional<HalfEdge> before;
-            for (int step = 0; step <= 300; ++step) {
-                const glm::dvec3 at = glm::mix(glm::dvec3(own.a), glm::dvec3(own.b), step / 300.0);
-                auto answer = around.partner_at(at);
-                if (!answer.has_answer) {
-                    around = index.neighbourhood(own.half_edge, at);
-                    answer = around.partner_at(at);
-                    ++searched;
+            ASSERT_TRUE(index.find_along(own.half_edge, BorderIndex::kMostNear, whole));
+            for (int k = 0; k < 16; ++k) {
+                ASSERT_TRUE(index.find_along(own.half_edge, {k / 16.0, (k + 1) / 16.0}, BorderIndex::kMostNear, along));
+                listed += along.segments().size();
+                of_whole += whole.segments().size();
+                for (int step = 0; step <= 20; ++step, ++places) {
+                    const double share = (k + step / 20.0) / 16;
+                    const glm::dvec3 at = glm::mix(glm::dvec3(own.a), glm::dvec3(own.b), share);
+                    const auto expected = index.seam_partner(own.half_edge, at);
+                    ASSERT_EQ(along.nearest(at), expected) << "seed " << seed << " share " << share;
+                    with_partner += expected.has_value();
                 }
-                const auto expected = index.seam_partner(own.half_edge, at);
-                if (answer.has_answer) {
-                    ASSERT_EQ(answer.partner, expected) << "seed " << seed << " step " << step;
-                }
-                changed += step > 0 && expected != before;
-                before = expected;
-                ++asked;
             }
         }
     }
-    EXPECT_GT(changed, 200);
-    EXPECT_LT(searched, asked / 4);
+    EXPECT_GT(with_partner, places / 10);
+    EXPECT_LT(listed, of_whole / 4);
 }
 
 TEST(BorderCrowd, NearOnesAreAllThatMayBePartnersAnywhere) {
@@ -328,10 +324,9 @@ TEST(BorderCrowd, OnePolygonHasNoPartners) {
     EXPECT_EQ(BorderIndex(segments).reach_part(), 0);
     EXPECT_EQ(BorderIndex(segments).seam_partner(0, {0.5, 0, 0}), std::nullopt);
     EXPECT_FALSE(BorderIndex(segments).has_partners());
-    // What is around one place tells of all others.
-    const auto answer = BorderIndex(segments).neighbourhood(0, {0.5, 0, 0}).partner_at({-40, 0, 0});
-    EXPECT_TRUE(answer.has_answer);
-    EXPECT_EQ(answer.partner, std::nullopt);
+    BorderIndex::SeamCandidates along;
+    EXPECT_TRUE(BorderIndex(segments).find_along(0, {0.2, 0.4}, 1, along));
+    EXPECT_TRUE(along.segments().empty());
 }
 
 /// Boxes of short segments tell enough by themselves.
