@@ -15,7 +15,10 @@ class InkMattes {
     /// All must outlive it; the lines have their origins. `filter`: nullptr where each pixel sees its own square.
     InkMattes(const Frame& frame, const InkedLines& lines, const InkPlan& plan, const FilterTable* filter,
               const TileKernels& kernels, Mattes& mattes)
-        : lines_(lines), plan_(plan), tile_mattes_(frame, mattes, filter, kernels), regions_(kernels) {}
+        : lines_(lines),
+          plan_(plan),
+          tile_mattes_(frame, mattes, filter, kernels),
+          regions_(kernels, filter != nullptr) {}
 
     /// Begins a tile: InkTile::draw() is to tell these whose the strokes are that it draws together.
     OwnerMasks& begin(PixelRect rect) {

@@ -47,7 +47,7 @@ InkPixels::InkPixels(const InkedLines& lines, const InkPlan& plan, const FilterT
       kernels_(kernels),
       film_(film),
       inks_(plan.orders.size()),
-      regions_(kernels) {
+      regions_(kernels, filter != nullptr) {
     const std::vector<std::string>& layers = film.layers().line_sets;
     for (std::size_t set = 0; set < lines.layers.size(); ++set) {
         const auto it = std::find(layers.begin(), layers.end(), lines.layers[set]);

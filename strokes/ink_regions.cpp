@@ -74,18 +74,19 @@ void InkRegions::lay_below(const InkSpot& spot) {
         }
         region.stack.lay_below(spot);
     }
-    join_opaque();
-    while (count_ > kMost) merge_most_alike();
+    if (!in_place_) join_opaque();
+    while (count_ > regions_.size() / 2) merge_most_alike();
 }
 
 /// Makes one of all regions that nothing is seen through: they will not differ any more.
 void InkRegions::join_opaque() {
-    std::size_t opaque = kMost * 2;
+    const std::size_t none = regions_.size();
+    std::size_t opaque = none;
     for (std::size_t i = 0; i < count_;) {
         const InkStack& stack = regions_[i].stack;
         if (stack.left > 0 || stack.through != glm::vec3(0.0f)) {
             ++i;
-        } else if (opaque == kMost * 2) {
+        } else if (opaque == none) {
             opaque = i++;
         } else {
             merge(opaque, i);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "shading/ink/inked_lines.h"
 #include "strokes/stroke_mask.h"
@@ -46,13 +47,15 @@ struct InkStack {
 };
 
 /// InkRegions lays spots upon each other, front to back, in one pixel: samples with the same spots so far are a region.
-/// There are at most kMost; then the two most alike become one.
+/// There are at most kMost, or kMostInPlace; then the two most alike become one.
 class InkRegions {
   public:
-    static constexpr std::size_t kMost = 8;
+    static constexpr std::size_t kMost = 8, kMostInPlace = 32;
     static constexpr int kSamples = StrokeMask::kRows * StrokeMask::kColumns;
 
-    explicit InkRegions(const TileKernels& kernels) : kernels_(&kernels) {}
+    /// `in_place`: where in the pixel each region lies is asked for, as filters do, so that fewer become one.
+    InkRegions(const TileKernels& kernels, bool in_place)
+        : kernels_(&kernels), in_place_(in_place), regions_(2 * (in_place ? kMostInPlace : kMost)) {}
     void reset();
     void lay_below(const InkSpot& spot);
     /// Calls use(mask, samples, stack) for each region; all together are the pixel.
@@ -74,7 +77,8 @@ class InkRegions {
     void merge(std::size_t first, std::size_t second);
 
     const TileKernels* kernels_;
-    std::array<Region, 2 * kMost> regions_;  // each may split before some become one
+    bool in_place_;
+    std::vector<Region> regions_;  // each may split before some become one
     std::size_t count_ = 0;
 };
 

@@ -121,7 +121,7 @@ TEST(InkRegions, AreWhatListsOfEachSampleSay) {
 /// Up to eight regions nothing is lost.
 TEST(InkRegions, AreExactWhereTheyAreFew) {
     Random random(3);
-    InkRegions regions(best_kernels());
+    InkRegions regions(best_kernels(), false);
     for (int trial = 0; trial < 200; ++trial) {
         std::array<StrokeMask, 3> masks;
         std::array<InkSpot, 3> spots;
@@ -150,6 +150,38 @@ TEST(InkRegions, AreExactWhereTheyAreFew) {
         int samples = 0;
         regions.for_regions([&](const StrokeMask&, int count, const InkStack&) { samples += count; });
         ASSERT_EQ(samples, 512);
+    }
+}
+
+/// For filters, samples keep their own ink, opaque ones of different colours too.
+TEST(InkRegions, InPlaceEachSampleHasWhatLiesOnIt) {
+    Random random(4);
+    InkRegions regions(best_kernels(), true);
+    for (int trial = 0; trial < 200; ++trial) {
+        std::array<StrokeMask, 5> masks;
+        std::array<InkSpot, 5> spots;
+        for (std::size_t i = 0; i < spots.size(); ++i) {
+            for (std::uint32_t& row : masks[i].rows) row = random.bits();
+            const double alpha = i % 2 == 0 ? 1 : random.real(0, 1);
+            spots[i] = {&masks[i], {static_cast<float>(random.real(0, 1)), 0, 0}, static_cast<float>(alpha)};
+        }
+        regions.reset();
+        for (const InkSpot& spot : spots) regions.lay_below(spot);
+        regions.for_regions([&](const StrokeMask& mask, int, const InkStack& stack) {
+            for (std::size_t row = 0; row < 16; ++row) {
+                for (int column = 0; column < 32; ++column) {
+                    if ((mask.rows[row] >> column & 1) == 0) continue;
+                    double color = 0, through = 1;
+                    for (const InkSpot& spot : spots) {
+                        if ((spot.mask->rows[row] >> column & 1) == 0) continue;
+                        color += through * static_cast<double>(spot.alpha * spot.color.r);
+                        through *= 1 - static_cast<double>(spot.alpha);
+                    }
+                    ASSERT_NEAR(stack.color.r, color, 1e-6);
+                    ASSERT_NEAR(stack.left, through, 1e-6);
+                }
+            }
+        });
     }
 }
 
