@@ -17,6 +17,8 @@ constexpr double kStraightShare = 0.25;
 constexpr double kSagTimes = 1.25;
 /// Straight parts so short are what is left where lines were found piece by piece.
 constexpr double kStubPx = 1.0 / 16;
+/// Lines that go so far and back again do so between two samples, where they meet short parts of others.
+constexpr double kThornPx = 0.5, kBackCosine = -0.85;
 /// A straight part that is so much longer than the next one is a line, where a curve begins.
 constexpr double kLongerTimes = 6, kLongerPx = 4;
 
@@ -41,6 +43,21 @@ void remove_stubs(bool is_closed, double tolerance_px, std::vector<glm::dvec2>& 
         can_go(kept[n - 2], kept[0], kept[1])) {
         kept.erase(kept.begin());
         kept.back() = kept.front();
+    }
+    points = std::move(kept);
+}
+
+/// Takes the tips of thorns away: where a line turns back within half a pixel.
+void remove_thorns(std::vector<glm::dvec2>& points) {
+    std::vector<glm::dvec2> kept;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const bool is_inner = !kept.empty() && i + 1 < points.size();
+        if (is_inner) {
+            const glm::dvec2 to = points[i] - kept.back(), from = points[i + 1] - points[i];
+            const double forth = glm::length(to), back = glm::length(from);
+            if (std::min(forth, back) < kThornPx && glm::dot(to, from) < kBackCosine * forth * back) continue;
+        }
+        if (kept.empty() || kept.back() != points[i]) kept.push_back(points[i]);
     }
     points = std::move(kept);
 }
@@ -173,6 +190,7 @@ glm::dvec2 fit_path(std::span<const glm::dvec2> line, bool is_closed, const FitB
     is_closed = is_closed && line.front() == line.back();
     std::vector<glm::dvec2> points;
     simplify(line, kStraightShare * bounds.tolerance_px, points);
+    remove_thorns(points);
     remove_stubs(is_closed, bounds.tolerance_px, points);
     const glm::dvec2 start = points.front();
     if (points.size() < 2) {  // a dot, and a line that the tolerance makes one

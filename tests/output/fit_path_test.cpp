@@ -137,6 +137,28 @@ TEST(FitPath, ThereAndBackAgainIsFinite) {
     }
 }
 
+/// A line that goes half a pixel off and back again loses that; one that goes farther, or turns less, keeps it.
+TEST(FitPath, ThornsAreCutOff) {
+    const auto corners = [](const Points& line) {
+        std::vector<PathStep> steps;
+        fit_path(line, false, {}, steps);
+        return steps.size();
+    };
+    for (int i = 0; i < 100; ++i) {
+        const double angle = 0.1 * i, c = std::cos(angle), s = std::sin(angle);
+        const auto with_thorn = [&](glm::dvec2 tip, glm::dvec2 back) {
+            Points line = {{-10, -3}, {0, 0}, tip, back, {12, 2}};
+            for (glm::dvec2& p : line) p = {50 + c * p.x - s * p.y, 50 + s * p.x + c * p.y};
+            return line;
+        };
+        const std::size_t without = corners(with_thorn({0, 0}, {0.03, 0.02}));
+        EXPECT_EQ(corners(with_thorn({-0.1, 0.3}, {0.03, 0.02})), without) << i;
+        EXPECT_EQ(corners(with_thorn({-0.2, 0.4}, {0, 0})), without) << i;
+        EXPECT_GT(corners(with_thorn({-0.2, 0.9}, {0, 0})), without) << i;
+        EXPECT_GT(corners(with_thorn({0.2, 0.4}, {0.6, 0.1})), without) << i;
+    }
+}
+
 TEST(FitPath, CoarsePolygonsStay) {
     Points line;
     for (int i = 0; i <= 24; ++i)
