@@ -148,6 +148,10 @@ void run_restyle(const Arguments& a) {
     if (has_paths) {
         drawing = draw_paths(file.lines, frame, a, paths, notes);
         finish_drawing(scene.picture, a, drawing, paths, notes);
+        if (!file.lines.has_chains)
+            notes.push_back(
+                "the lines were saved beside pixels, which need no chains of visible lines, so some paths are divided "
+                "otherwise than those of render; save lines beside a vector file, or with --find all");
         if (!file.surface.pixels.empty())
             notes.push_back(
                 "surfaces were saved as pixels, which a vector file has none of; render has them as regions");

@@ -27,6 +27,27 @@ TEST(VectorFiles, RenderAndRestyleWriteTheSame) {
     }
 }
 
+/// Technical needs chains of hidden lines only: beside pixels those of visible ones are not kept, and a note says so.
+TEST(VectorFiles, RestyleSaysWhereALinesFileHasNoChains) {
+    const TemporaryFolder folder;
+    const auto save_beside = [&](const std::string& output) {
+        const std::vector<std::string> arguments = {"render",    scene_file("still_life.toml"),
+                                                    "-o",        output,
+                                                    "-r",        "320x240",
+                                                    "-q",        "--style",
+                                                    "technical", "--save-lines",
+                                                    "a.lines"};
+        ASSERT_EQ(run_burin(folder.path(), arguments).err, "");
+    };
+    const auto restyle = [&] {
+        return run_burin(folder.path(), {"restyle", "a.lines", "-o", "b.svg", "--style", "technical"}).err;
+    };
+    save_beside("a.png");
+    EXPECT_NE(restyle().find("note: the lines were saved beside pixels"), std::string::npos);
+    save_beside("a.svg");
+    EXPECT_EQ(restyle().find("note: the lines were saved beside pixels"), std::string::npos);
+}
+
 TEST(VectorFiles, OptionsSayWhatIsInThem) {
     const TemporaryFolder folder;
     const auto svg = [&](std::vector<std::string> more) {
