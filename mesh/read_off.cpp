@@ -100,8 +100,9 @@ class OffParser {
     }
 
     /// What stands behind the word OFF, or on the next line. The counts may follow it without a
-    /// blank, as in the ModelNet data sets.
+    /// blank, as in the ModelNet data sets, and the word may be missing.
     LineScanner behind_keyword(LineScanner first_line) {
+        if (are_counts(first_line)) return first_line;
         const std::string_view word = first_line.word();
         const std::size_t off = lower_case(word).find("off");
         std::string_view keyword = word.substr(0, off == std::string_view::npos ? off : off + 3);
@@ -111,10 +112,21 @@ class OffParser {
         check_keyword(keyword);
         LineScanner rest({word.data() + keyword.size(),
                           static_cast<std::size_t>(current_.data() + current_.size() - word.data()) - keyword.size()});
+        if (has_dimensions_) {
+            if (rest.at_end()) rest = next_line("the number of dimensions");
+            std::int64_t dimensions = 0;
+            if (!rest.integer(dimensions) || dimensions != 3) fail_by_dimensions();
+        }
         if (rest.at_end()) return next_line("the counts");
         if (LineScanner ahead = rest; lower_case(ahead.word()) == "binary")
             fail("binary OFF is not read; save it as text");
         return rest;
+    }
+
+    /// Whether a line has two integers or three and nothing else.
+    static bool are_counts(LineScanner line) {
+        std::int64_t count = 0;
+        return line.integer(count) && line.integer(count) && (line.at_end() || (line.integer(count) && line.at_end()));
     }
 
     void check_keyword(std::string_view keyword) {
@@ -127,15 +139,16 @@ class OffParser {
         // In capitals, N is for normals; a small n before OFF in capitals is for the number of
         // dimensions.
         const bool in_small_letters = small == keyword;
-        if (in_small_letters && prefix.ends_with('n')) {
+        if (in_small_letters && prefix.find('n') != std::string_view::npos) {
             fail("'" + printable(keyword) + "' may mean normals (NOFF) or dimensions (nOFF); write it so");
         }
-        if (prefix.find('4') != std::string_view::npos || keyword.find('n') != std::string_view::npos) {
-            fail("OFF files with more or fewer than three dimensions are not read");
-        }
+        if (prefix.find('4') != std::string_view::npos) fail_by_dimensions();
+        has_dimensions_ = keyword.find('n') != std::string_view::npos;
         const auto has = [&](std::string_view letters) { return prefix.find(letters) != std::string_view::npos; };
-        attributes_ = (has("n") ? 3 : 0) + (has("c") ? 4 : 0) + (has("st") ? 2 : 0);
+        attributes_ = (keyword.find('N') != std::string_view::npos ? 3 : 0) + (has("c") ? 4 : 0) + (has("st") ? 2 : 0);
     }
+
+    [[noreturn]] void fail_by_dimensions() { fail("OFF files with more or fewer than three dimensions are not read"); }
 
     /// The next line, with one count or two behind that of the vertices. A vertex has three
     /// numbers.
@@ -237,7 +250,8 @@ class OffParser {
     std::string_view current_;
     LineScanner item_{std::string_view()};  // what is left of the line that is being read
     std::uint64_t vertices_ = 0, polygons_ = 0;
-    int attributes_ = 0;  // numbers of a vertex behind its coordinates
+    int attributes_ = 0;           // numbers of a vertex behind its coordinates
+    bool has_dimensions_ = false;  // their number stands before the counts
     bool do_vertices_share_lines_ = false;
     std::int64_t least_corners_ = 3;  // of a polygon
     PolygonSoup soup_;

@@ -58,6 +58,23 @@ TEST_F(OffHeaders, CountsMayStandOnSeveralLines) {
     EXPECT_TRUE(refuses("OFF\n4 # and no more\n", {"the file ends where the number of polygons should be"}));
 }
 
+TEST_F(OffHeaders, TheWordMayBeMissing) {
+    for (const char* header : {"4 2 5\n", "4 2\n", "# made by hand\n\n4 2 0 # counts\n"})
+        EXPECT_TRUE(is_read(header)) << header;
+    EXPECT_TRUE(refuses("4\n2\n" + kRest, {":1: this is no OFF file"}));
+    EXPECT_TRUE(refuses("4 2 5 1\n" + kRest, {":1: this is no OFF file"}));
+}
+
+/// nOFF: the number of dimensions stands before the counts.
+TEST_F(OffHeaders, ThreeDimensionsMayBeSaid) {
+    for (const char* header : {"nOFF\n3\n4 2 5\n", "nOFF 3\n4 2\n", "nOFF 3 4 2 5\n", "nOFF # a\n\n3 # b\n4\n2\n",
+                               "CnOFF\n3\n4 2 0\n", "NnOFF\n3\n4 2 0\n"}) {
+        EXPECT_TRUE(is_read(header)) << header;
+    }
+    for (const char* header : {"nOFF\n4\n4 2 0\n", "nOFF\n2\n4 2 0\n", "nOFF\n4 2 0\n", "CnOFF\nx\n4 2 0\n"})
+        EXPECT_TRUE(refuses(header + kRest, {":2: ", "three dimensions"})) << header;
+}
+
 TEST_F(OffHeaders, TheWordMayBeInSmallLettersWhereThatIsClear) {
     for (const char* word :
          {"off", "Off", "coff", "stoff", "COFF", "NOFF", "Noff", "CNOFF", "STOFF", "STCNOFF", "\xEF\xBB\xBFOFF"}) {
@@ -65,9 +82,10 @@ TEST_F(OffHeaders, TheWordMayBeInSmallLettersWhereThatIsClear) {
     }
     EXPECT_TRUE(refuses("noff\n4 2 0\n" + kRest, {":1: 'noff' may mean normals (NOFF) or dimensions (nOFF)"}));
     EXPECT_TRUE(refuses("cnoff\n4 2 0\n" + kRest, {":1: 'cnoff' may mean"}));
-    for (const char* word : {"nOFF", "4OFF", "4nOFF", "C4OFF", "4off", "CnOFF"}) {
+    for (const char* word : {"4OFF", "4nOFF", "C4OFF", "4off"}) {
         EXPECT_TRUE(refuses(std::string(word) + "\n4 2 0\n" + kRest, {":1: ", "three dimensions"})) << word;
     }
+    EXPECT_TRUE(refuses("nstoff\n4 2 0\n" + kRest, {":1: 'nstoff' may mean"}));
     for (const char* word : {"OF", "XOFF", "OFFS", "4", "4 OFF", "OFF_"}) {
         EXPECT_TRUE(refuses(std::string(word) + "\n4 2 0\n" + kRest, {":1: this is no OFF file"})) << word;
     }

@@ -64,9 +64,9 @@ TEST_F(ReadOff, ColoursNormalsAndTextureCoordinatesAreSkipped) {
 TEST_F(ReadOff, OtherHeadersAreRefused) {
     const std::string rest = "4 1 0\n" + kPositions + "3 0 1 2\n";
     EXPECT_TRUE(refuses("PLY\n" + rest, {":1: this is no OFF file"}));
-    EXPECT_TRUE(refuses(rest, {":1: this is no OFF file"}));
+    EXPECT_TRUE(refuses("x" + rest, {":1: this is no OFF file"}));
     EXPECT_TRUE(refuses("4OFF\n" + rest, {":1: ", "three dimensions"}));
-    EXPECT_TRUE(refuses("nOFF\n3\n" + rest, {":1: ", "three dimensions"}));
+    EXPECT_TRUE(refuses("nOFF\n4\n" + rest, {":2: ", "three dimensions"}));
     EXPECT_TRUE(refuses("OFF BINARY\n" + rest, {":1: binary OFF is not read"}));
     EXPECT_TRUE(refuses("# nothing\n", {"the file ends where the word OFF should be"}));
     EXPECT_TRUE(refuses("", {"empty"}));
