@@ -171,6 +171,49 @@ TEST(DeepSamples, HiddenLinesLieBehindWhatCoversThePixel) {
     EXPECT_EQ(sampler.samples_of({0, 0, deeper, lines, false}).size(), 3u);
 }
 
+TEST(DeepSamples, RoundingDoesNotAddUp) {
+    for (const bool is_float : {false, true}) {
+        const NamedFrame named(is_float);
+        DeepSampler sampler(named.frame());
+        for (unsigned trial = 0; trial < 2000; ++trial) {
+            Random random(trial);
+            std::vector<DeepSurface> surfaces;
+            std::vector<DeepLine> lines;
+            float left = 1, line_left = 1;
+            for (std::uint32_t i = 1; i <= 3; ++i) {
+                const auto part = static_cast<float>(random.real(0, 1));
+                const float share = i == 3 && trial % 2 == 0 ? left : left * part;
+                left -= share;
+                surfaces.push_back(
+                    surface(i, share, static_cast<float>(random.real(3, 5)), static_cast<float>(random.real(0, 1))));
+                const float line_share = line_left * static_cast<float>(random.real(0, 1));
+                line_left -= line_share;
+                lines.push_back(line(static_cast<LineClass>(i), i, line_share, static_cast<float>(random.real(3, 5)),
+                                     static_cast<float>(random.real(0, 1))));
+            }
+            double color = 0, alpha = 0, covered = 0;
+            for (const DeepSurface& s : surfaces) {
+                color += static_cast<double>(s.color.r);
+                alpha += static_cast<double>(s.share);
+            }
+            glm::dvec2 beauty(0.0);
+            for (const DeepLine& l : lines) {
+                beauty += static_cast<double>(l.line.share) * glm::dvec2(static_cast<double>(l.color.r), 1);
+                covered += static_cast<double>(l.line.share);
+            }
+            beauty += (1 - covered) * glm::dvec2(color, alpha);
+            const auto samples = sampler.samples_of({0, 0, surfaces, lines, false});
+            expect_tidy(samples);
+            const double bound = 1.0 / 2048;  // with the film's rounding of surfaces
+            const glm::dvec2 off = glm::abs(flattened(samples, all) - beauty);
+            EXPECT_LE(std::max(off.x, off.y), bound) << trial << " " << is_float;
+            const glm::dvec2 off_surface = glm::abs(flattened(samples, surfaces_only) - glm::dvec2(color, alpha));
+            EXPECT_LE(std::max(off_surface.x, off_surface.y), bound) << trial << " " << is_float;
+            if (HasFailure()) return;
+        }
+    }
+}
+
 double on_film(double value) { return static_cast<double>(float_from_half(Film::to_half(static_cast<float>(value)))); }
 
 /// What a pixel has on the film, which rounds surfaces before it lays lines over them, and each class.
@@ -203,7 +246,7 @@ double matte(std::span<const DeepSample> samples, std::uint32_t name) {
 }
 
 /// One to three lines of one or more classes, of a few colours, over none to three surfaces.
-TEST(DeepSamples, RoundingDoesNotAddUp) {
+TEST(DeepSamples, AreWhatTheFilmHas) {
     for (const bool is_float : {false, true}) {
         const NamedFrame named(is_float);
         DeepSampler sampler(named.frame());
