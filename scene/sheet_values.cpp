@@ -108,28 +108,28 @@ StyleValue SheetValueReader::constant(const Place& place, const SheetValueRule& 
     const bool may_be_color = rule.of == Of::color || rule.of == Of::number_or_color;
     const bool may_be_number = rule.of != Of::color;
     StyleValue value;
-    if (place.node.is_number() && may_be_number) {
-        value.number = *place.node.value<double>();
+    const auto number = TomlReader::number_of(place.node);
+    if (number && may_be_number) {
+        value.number = *number;
     } else if (const auto* const text = place.node.as_string()) {
         if (may_be_color && text->get().starts_with('#')) {
             const auto color = color_from_hex(text->get());
             if (!color) fail("must be a colour such as \"#c0d0ff\"");
             value = StyleValue::of_color({color->r, color->g, color->b});
         } else {
-            const auto number = number_with_unit(text->get());
-            if (!number || !may_be_number) fail(wanted(rule));
-            if (rule.of == Of::number && number->unit != SheetUnit::px) fail("takes no unit");
-            value.number = number->number;
-            value.unit = number->unit;
+            const auto length = number_with_unit(text->get());
+            if (!length || !may_be_number) fail(wanted(rule));
+            if (rule.of == Of::number && length->unit != SheetUnit::px) fail("takes no unit");
+            value.number = length->number;
+            value.unit = length->unit;
         }
     } else if (const toml::array* const list = place.node.as_array(); list != nullptr && may_be_color) {
         value.kind = StyleValue::Kind::color;
         if (list->size() != 3) fail(wanted(rule));
         for (std::size_t k = 0; k < 3; ++k) {
-            const toml::node& part = *list->get(k);
-            const double number = part.is_number() ? *part.value<double>() : -1;
-            if (!part.is_number() || !(number >= 0 && number <= 65504)) fail("must be three linear numbers from 0 on");
-            value.color[k] = static_cast<float>(number);
+            const auto part = TomlReader::number_of(*list->get(k));
+            if (!part || !(*part >= 0 && *part <= 65504)) fail("must be three linear numbers from 0 on");
+            value.color[k] = static_cast<float>(*part);
         }
     } else {
         fail(wanted(rule));
@@ -156,7 +156,8 @@ Ramp SheetValueReader::stops(const Place& place, const SheetValueRule& rule, She
     for (const toml::node& node : *list) {
         const toml::array* const stop = node.as_array();
         if (stop == nullptr || stop->size() != 2) fail_at(node, "a stop must be a list of two: [at, value]");
-        if (!stop->get(0)->is_number()) fail_at(*stop->get(0), "where a stop lies must be a number");
+        const auto at = TomlReader::number_of(*stop->get(0));
+        if (!at) fail_at(*stop->get(0), "where a stop lies must be a number");
         const StyleValue value = constants.constant({place.table, *stop->get(1), place.context}, of_values,
                                                     text_at({place.table, *stop->get(1), place.context}));
         const bool is_color = value.kind == StyleValue::Kind::color;
@@ -170,7 +171,7 @@ Ramp SheetValueReader::stops(const Place& place, const SheetValueRule& rule, She
                 "a ramp takes no world units: write an expression, such as \"=ramp(\\\"name\\\", depth) / px_size\"");
         unit = value.unit;
         ramp.is_color = is_color;
-        RampStop made{static_cast<float>(*stop->get(0)->value<double>()), value.color};
+        RampStop made{static_cast<float>(*at), value.color};
         if (!is_color) made.value[0] = static_cast<float>(value.number);
         ramp.stops.push_back(made);
     }

@@ -41,9 +41,14 @@ void TomlReader::fail(const std::string& message) const {
     fail_at(position(), context_ + (context_.empty() ? "" : " ") + message);
 }
 
+std::optional<double> TomlReader::number_of(const toml::node& node) {
+    if (const auto whole = node.value_exact<std::int64_t>()) return static_cast<double>(*whole);
+    return node.value_exact<double>();
+}
+
 double TomlReader::checked_number(const toml::node& node, std::string_view key) const {
-    const auto value = node.value<double>();
-    if (!node.is_number() || !value) fail(key, "must be a number");
+    const auto value = number_of(node);
+    if (!value) fail(key, "must be a number");
     if (!std::isfinite(*value)) fail(key, "must be a finite number");
     return *value;
 }

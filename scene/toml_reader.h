@@ -94,6 +94,9 @@ class TomlReader {
     }
     /// Throws InputError, or UsageError for a value of an override.
     [[noreturn]] static void fail_at(const SourcePosition& position, const std::string& message);
+    /// The number that a node is; none if it is none. A whole number beyond 2^53 is rounded, which `value<double>()` of
+    /// the library refuses.
+    static std::optional<double> number_of(const toml::node& node);
 
     /// Values of overrides have one of these in front of their source path.
     static constexpr std::string_view kOption = "--set ", kCall = "burin_set() ";

@@ -84,6 +84,7 @@ TEST(SceneErrors, ValuesOutOfRange) {
     expect_mistakes({
         {"size=[1,0,1]", "3:6", "must be positive"},
         {"size=[1,1,-1]", "3:6", "must be positive"},
+        {"size=[1,1,-9007199254740993]", "3:6", "must be positive"},
         {"size=[1,nan,1]", "3:6", "finite"},
         {"size=[inf,1,1]", "3:6", "finite"},
         {"subdivide=-1", "3:11", "at least 0 and at most 8, got -1"},

@@ -119,6 +119,25 @@ TEST(SheetErrors, OfValues) {
                            {"base = \"a\"\n[style.a]\nbase = \"ink\"", "10:8", "ink -> a -> ink"}});
 }
 
+// The TOML library gives no double for a whole number that a double does not hold.
+TEST(SheetErrors, OfWholeNumbersThatAreNoDoubles) {
+    const std::string large = "9007199254740993";
+    const auto with = [&](const std::string& before, const std::string& behind) { return before + large + behind; };
+    const std::string number = with("width = ", ""), negative = with("width = -", ""),
+                      value = with("width = { over = \"t\", stops = [[0, ", "]] }"),
+                      at = with("width = { over = \"t\", stops = [[0, 1], [", ", 2]] }"),
+                      color = with("color = [0, ", ", 0]"), element = with("dash = [1, ", "]");
+    expect_mistakes(kInk, {{number.c_str(), "8:9", "at most 4096, got 9.007199255e+15"},
+                           {negative.c_str(), "8:9", "at least 0 and at most 4096, got -9.007199255e+15"},
+                           {value.c_str(), "8:36", "at most 4096, got 9.007199255e+15"},
+                           {at.c_str(), "8:31", "stop 2 has a number beyond 1e15"},
+                           {color.c_str(), "8:9", "must be three linear numbers from 0 on"},
+                           {element.c_str(), "8:12", "at most 65535, got 9.007199255e+15"}});
+    for (const std::string& right : {with("width = \"=a\"\n[let]\na = ", ""),
+                                     with("[parameters]\na = { value = ", ", min = 0, max = 9223372036854775807 }")})
+        EXPECT_EQ(error_of(kInk + right), "") << right;
+}
+
 TEST(SheetErrors, OfSetsAndNames) {
     const std::string style = "[style.ink]\n[[set]]\n";  // what follows begins on line 3
     expect_mistakes(
