@@ -11,23 +11,75 @@ namespace {
 constexpr double kNarrowPx = 2;
 constexpr double kCosAlong = 0.866;
 /// The facets of a rim cross those of the hole around it, over and over: at less than 16 degrees if there are 12 of
-/// them or more, and they lap by less than a twelfth of their length. That goes for them at any size.
+/// them or more, and they lap by less than a twelfth of the longer one. That goes for them at any size.
 constexpr double kCosOfFacets = 0.961, kCosOfParallels = 0.99996;
+/// Facets that are parallel are told from sides of boards by those beside them: these bend by at most 31 degrees, and
+/// are at most four times as long or as short.
+constexpr double kCosOfRim = 0.857, kMostUneven = 4;
+constexpr int kMostAroundVertex = 64;
 constexpr double kNarrowPart = 1.0 / 12;
+/// A facet is asked for laps over others up to so many times as long.
+constexpr double kMostTimesLonger = 8;
 /// A face leaves its plane where it bends by more than 10 degrees.
 constexpr double kCosBend = 0.985;
 /// The way over a lap begins beside the edge, and the own face has to go on by as much beyond the other one's edge. In
 /// pixels.
 constexpr double kBesidePx = 1.0 / 64;
 
+/// Edges of a face, which end where it bends.
+class Rim {
+  public:
+    Rim(const SurfaceSet& surfaces, std::uint32_t instance)
+        : surfaces_(surfaces), instance_(instance), mesh_(surfaces.mesh_of({instance, 0})) {
+        bends_.classes = LineClass::crease;
+        bends_.cos_crease_angle = kCosBend;
+    }
+    const LineCriteria& bends() const { return bends_; }
+    glm::dvec3 corner(HalfEdge h, HalfEdge k) const {
+        return surfaces_.view_position(instance_, mesh_.triangles[h / 3][(h + k) % 3]);
+    }
+    /// Whether an edge is one of many that a curve was cut into.
+    bool is_facet(HalfEdge h) const { return goes_on(h, 1) && goes_on(h, 2); }
+
+  private:
+    /// Whether the edge goes on so at one of its ends. `step`: to the next edge of a triangle, or the one before.
+    bool goes_on(HalfEdge h, HalfEdge step) const {
+        const std::optional<HalfEdge> next = edge_after(h, step);
+        if (!next) return false;
+        const glm::dvec3 own = corner(h, 1) - corner(h, 0), other = corner(*next, 1) - corner(*next, 0);
+        const double length = glm::length(own), other_length = glm::length(other);
+        const double cosine = glm::dot(own, other) / std::max(length * other_length, 1e-300);
+        return cosine >= kCosOfRim && cosine <= kCosOfParallels && length <= kMostUneven * other_length &&
+               other_length <= kMostUneven * length;
+    }
+    /// The next edge of the face around one of its ends.
+    std::optional<HalfEdge> edge_after(HalfEdge h, HalfEdge step) const {
+        const auto beside = [step](HalfEdge e) { return e - e % 3 + (e % 3 + step) % 3; };
+        HalfEdge next = beside(h);
+        for (int k = 0; k < kMostAroundVertex; ++k) {
+            const HalfEdge partner = mesh_.next_on_edge[next];
+            const bool ends = partner == next || mesh_.next_on_edge[partner] != next ||
+                              edge_classes(surfaces_, {{instance_, next / 3}, next}, bends_).has(LineClass::crease);
+            if (ends) return next;
+            // The partner of a polygon that is wound the other way runs from the same vertex.
+            if (mesh_.triangles[partner / 3][partner % 3] == mesh_.triangles[next / 3][next % 3]) return std::nullopt;
+            next = beside(partner);
+        }
+        return std::nullopt;
+    }
+
+    const SurfaceSet& surfaces_;
+    std::uint32_t instance_;
+    const Mesh& mesh_;
+    LineCriteria bends_;
+};
+
 }  // namespace
 
 bool laps_narrowly(const SurfaceSet& surfaces, SurfaceId own, HalfEdge edge, const FacePlace& other, glm::dvec2 at) {
     const Projection& p = surfaces.projection;
-    const auto end_of = [&](std::uint32_t instance, HalfEdge h, HalfEdge k) {
-        return surfaces.view_position(instance, surfaces.mesh_of({instance, h / 3}).triangles[h / 3][(h + k) % 3]);
-    };
-    const glm::dvec3 from = end_of(own.instance, edge, 0), to = end_of(own.instance, edge, 1);
+    const Rim rim(surfaces, own.instance);
+    const glm::dvec3 from = rim.corner(edge, 0), to = rim.corner(edge, 1);
     const double length = glm::distance(from, to);
     const glm::dvec3 along = (to - from) / std::max(length, 1e-300);
     glm::dvec3 corners[3], origin, ray;
@@ -39,14 +91,12 @@ bool laps_narrowly(const SurfaceSet& surfaces, SurfaceId own, HalfEdge edge, con
     const double facing = glm::dot(normal, ray);
     if (facing == 0) return false;
     const glm::dvec3 place = origin + ray * (glm::dot(normal, from - origin) / facing);
-    const double pixel = p.pixel_size(-place.z), reach = std::max(kNarrowPx * pixel, kNarrowPart * length);
+    const double pixel = p.pixel_size(-place.z),
+                 reach = std::max(kNarrowPx * pixel, kMostTimesLonger * kNarrowPart * length);
     const glm::dvec3 begin = place + kBesidePx * pixel * inward, end = place + reach * inward;
     if (!(pixel > 0) || !needs_no_clipping(p, begin) || !needs_no_clipping(p, end)) return false;
     const glm::dvec2 begin_px = p.to_pixel(begin), end_px = p.to_pixel(end);
     if (begin_px == end_px) return false;
-    LineCriteria bends;
-    bends.classes = LineClass::crease;
-    bends.cos_crease_angle = kCosBend;
     // Where a face ends on the way, or leaves its plane.
     struct End {
         SurfaceEdge edge;
@@ -54,7 +104,7 @@ bool laps_narrowly(const SurfaceSet& surfaces, SurfaceId own, HalfEdge edge, con
     };
     const auto end_of_face = [&](const FacePlace& start, glm::dvec2 goal,
                                  SurfaceId* arrived = nullptr) -> std::optional<End> {
-        const SurfaceWalk walk = walk_surface(surfaces, start.surface, start.pixel, goal, bends);
+        const SurfaceWalk walk = walk_surface(surfaces, start.surface, start.pixel, goal, rim.bends());
         if (arrived != nullptr && walk.end == WalkEnd::arrived) *arrived = walk.surface;
         if (walk.crossed.has(LineClass::crease) && walk.crossed_edge.half_edge != kNoHalfEdge)
             return End{walk.crossed_edge, walk.crossed_fraction};
@@ -69,13 +119,14 @@ bool laps_narrowly(const SurfaceSet& surfaces, SurfaceId own, HalfEdge edge, con
     const auto other_end = end_of_face({beneath, begin_px}, end_px);
     if (!other_end) return false;
     const SurfaceEdge& e = other_end->edge;
-    const glm::dvec3 other_from = end_of(e.surface.instance, e.half_edge, 0),
-                     other_to = end_of(e.surface.instance, e.half_edge, 1);
-    const double cosine =
-        std::abs(glm::dot(along, other_to - other_from)) / std::max(glm::distance(other_from, other_to), 1e-300);
+    const Rim other_rim(surfaces, e.surface.instance);
+    const glm::dvec3 other_from = other_rim.corner(e.half_edge, 0), other_to = other_rim.corner(e.half_edge, 1);
+    const double other_length = glm::distance(other_from, other_to);
+    const double cosine = std::abs(glm::dot(along, other_to - other_from)) / std::max(other_length, 1e-300);
     const double lap = other_end->fraction * reach;
     const bool is_narrow = (cosine >= kCosAlong && lap <= kNarrowPx * pixel) ||
-                           (cosine >= kCosOfFacets && cosine <= kCosOfParallels && lap <= kNarrowPart * length);
+                           (cosine >= kCosOfFacets && lap <= kNarrowPart * std::max(length, other_length) &&
+                            (cosine <= kCosOfParallels || (rim.is_facet(edge) && other_rim.is_facet(e.half_edge))));
     if (!is_narrow) return false;
     const double beyond = other_end->fraction + 2 * kBesidePx / glm::distance(begin_px, end_px);
     return !end_of_face({own, begin_px}, glm::mix(begin_px, end_px, beyond));
