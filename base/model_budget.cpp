@@ -1,5 +1,6 @@
 #include "base/model_budget.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "base/error.h"
@@ -14,6 +15,8 @@ std::string option_text(std::uint64_t bytes) {
     return std::to_string((bytes >> shift) + 1) + (shift == kMega ? "M" : "G");
 }
 
+std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) { return b > UINT64_MAX - a ? UINT64_MAX : a + b; }
+
 }  // namespace
 
 std::string size_text(std::uint64_t bytes) {
@@ -27,16 +30,21 @@ std::string size_text(std::uint64_t bytes) {
 }
 
 void ModelBudget::add(std::uint64_t bytes, const std::string& what) {
-    const std::uint64_t sum = bytes > UINT64_MAX - counted_bytes_ ? UINT64_MAX : counted_bytes_ + bytes;
+    const std::uint64_t sum = saturating_sum(counted_bytes_, bytes);
     if (sum > limit_bytes_) {
-        const std::string before = counted_bytes_ > 0 ? ", with what was counted before " + size_text(sum) : "";
+        const std::uint64_t needed = std::max(sum, foreseen_bytes_);
+        const std::string all = needed == bytes ? ""
+                                : needed == sum ? ", with what was counted before " + size_text(needed)
+                                                : ", all of them together " + size_text(needed);
         const std::string option(option_);
-        throw InputError(what + " needs about " + size_text(bytes) + before + ", more than the " +
+        throw InputError(what + " needs about " + size_text(bytes) + all + ", more than the " +
                          size_text(limit_bytes_) + " that " +
                          (option.empty() ? "models may take" : option + " allows") + "; make it simpler" +
-                         (option.empty() ? "" : ", or give " + option + " " + option_text(sum)));
+                         (option.empty() ? "" : ", or give " + option + " " + option_text(needed)));
     }
     counted_bytes_ = sum;
 }
+
+void ModelBudget::foresee(std::uint64_t bytes) { foreseen_bytes_ = saturating_sum(counted_bytes_, bytes); }
 
 }  // namespace burin

@@ -29,6 +29,9 @@ class ModelBudget {
     /// limit, with those counted before; `what` takes them, and is the subject of the message:
     /// "object 'ball', with 4096 segments and 4096 rings,".
     void add(std::uint64_t bytes, const std::string& what);
+    /// Tells how many bytes are about to be counted, one after the other, so that a refusal names what all of them
+    /// need.
+    void foresee(std::uint64_t bytes);
 
     std::uint64_t counted_bytes() const { return counted_bytes_; }
     std::uint64_t limit_bytes() const { return limit_bytes_; }
@@ -37,6 +40,7 @@ class ModelBudget {
     std::uint64_t limit_bytes_;
     std::string_view option_;  // a literal
     std::uint64_t counted_bytes_ = 0;
+    std::uint64_t foreseen_bytes_ = 0;  // what will have been counted
 };
 
 /// Products for add(), which stay at the largest number instead of passing it.

@@ -171,10 +171,13 @@ PolygonCounts count_subdivided(PolygonCounts mesh, SubdivisionScheme scheme, int
 
 void count_mesh(ModelBudget& budget, PolygonCounts mesh, const std::string& object, const std::string& settings) {
     constexpr std::uint64_t kBytesPerCorner = 60;  // while it is built; measured
-    char million[32];
-    std::snprintf(million, sizeof million, "%.1f", 1e-6 * static_cast<double>(mesh.polygons));
+    char polygons[32];
+    if (mesh.polygons < 1000000)
+        std::snprintf(polygons, sizeof polygons, "%d", static_cast<int>(mesh.polygons));
+    else
+        std::snprintf(polygons, sizeof polygons, "%.1f million", 1e-6 * static_cast<double>(mesh.polygons));
     budget.add(saturating_product(kBytesPerCorner, mesh.corners),
-               object + " of " + million + " million polygons (" + settings + ")");
+               object + " of " + polygons + " polygons (" + settings + ")");
 }
 
 PolygonMesh subdivide(const PolygonMesh& mesh, SubdivisionScheme scheme, int levels, const std::string& object_name) {

@@ -32,7 +32,6 @@ struct LoadedModel {
     MaterialList materials;
     std::uint64_t polygons = 0;                  // of all objects
     std::uint64_t name_bytes = 0;                // of all objects
-    bool is_placed = false;                      // at least once
     std::size_t motion = SceneAnimation::kNone;  // number among the animation's models
 };
 
@@ -78,20 +77,21 @@ class SceneLoader {
     }
 
     AnimatedScene load() {
+        count_shapes();
         for (const ObjectDescription& object : from_.objects) {
-            if (object.file.empty()) at_place_of(object, [&] { count_shape(object); });
+            throw_if_interrupted();
+            if (!object.file.empty()) at_place_of(object, [&] { model_of(object); });
         }
+        count_models();
         for (const ObjectDescription& object : from_.objects) {
             throw_if_interrupted();
             at_place_of(object, [&] {
                 if (object.file.empty()) {
+                    count_polygons(object, polygons_of_shape(object).polygons);
                     place(object, make_shape(object));
                 } else {
                     LoadedModel& model = model_of(object);
-                    // The file itself spells out what it takes to show it once.
-                    const std::size_t more = object.instances.size() - (std::exchange(model.is_placed, true) ? 0 : 1);
-                    count_instances(object, more, model.objects.size(), model.name_bytes);
-                    count_polygons(object.instances.size(), model.polygons);
+                    count_polygons(object, model.polygons);
                     place(object, model);
                 }
             });
@@ -140,29 +140,62 @@ class SceneLoader {
         }
     }
 
-    void count_shape(const ObjectDescription& object) {
+    /// Calls count(budget) for what it counts: first to foresee all of it, then for the budget of the scene.
+    template <typename Count>
+    void count_all(const Count& count) {
+        ModelBudget all(UINT64_MAX);
+        count(all);
+        budget_.foresee(all.counted_bytes());
+        count(budget_);
+    }
+
+    /// Counts what shapes take, before any file is read.
+    void count_shapes() {
+        count_all([&](ModelBudget& budget) {
+            for (const ObjectDescription& object : from_.objects) {
+                if (object.file.empty()) at_place_of(object, [&] { count_shape(budget, object); });
+            }
+        });
+    }
+    static PolygonCounts polygons_of_shape(const ObjectDescription& object) {
         const Shape& shape = object.shape;
-        std::string settings = shape.settings;
+        return count_subdivided({shape.polygons, shape.corners}, object.scheme, object.subdivide, shape.name);
+    }
+    static void count_shape(ModelBudget& budget, const ObjectDescription& object) {
+        std::string settings = object.shape.settings;
         if (object.subdivide > 0)
             settings += (settings.empty() ? "" : ", ") + ("subdivide " + std::to_string(object.subdivide));
-        const PolygonCounts counts =
-            count_subdivided({shape.polygons, shape.corners}, object.scheme, object.subdivide, shape.name);
-        count_mesh(budget_, counts, quoted(object), settings);
-        count_instances(object, object.instances.size(), 1, 0);
-        count_polygons(object.instances.size(), counts.polygons);
+        count_mesh(budget, polygons_of_shape(object), quoted(object), settings);
+        count_instances(budget, object, object.instances.size(), 1, 0);
+    }
+
+    /// Counts what instances of models take, before any is placed.
+    void count_models() {
+        count_all([&](ModelBudget& budget) {
+            std::set<const LoadedModel*> shown;
+            for (const ObjectDescription& object : from_.objects) {
+                if (object.file.empty()) continue;
+                at_place_of(object, [&] {
+                    const LoadedModel& model = model_of(object);
+                    // The file itself spells out what it takes to show it once.
+                    const std::size_t more = object.instances.size() - (shown.insert(&model).second ? 1 : 0);
+                    count_instances(budget, object, more, model.objects.size(), model.name_bytes);
+                });
+            }
+        });
     }
 
     /// Counts what instances of an object take that has `parts` parts.
-    void count_instances(const ObjectDescription& object, std::uint64_t instances, std::uint64_t parts,
-                         std::uint64_t name_bytes) {
+    static void count_instances(ModelBudget& budget, const ObjectDescription& object, std::uint64_t instances,
+                                std::uint64_t parts, std::uint64_t name_bytes) {
         constexpr std::uint64_t kBytesPerPart = 600;  // here and in a frame; measured
         const std::uint64_t bytes = parts * (kBytesPerPart + object.name.size()) + name_bytes;
-        budget_.add(saturating_product(instances, bytes),
-                    quoted(object) + " of " + std::to_string(object.instances.size()) + " instances with " +
-                        std::to_string(parts) + (parts == 1 ? " part each" : " parts each"));
+        budget.add(saturating_product(instances, bytes),
+                   quoted(object) + " of " + std::to_string(object.instances.size()) + " instances with " +
+                       std::to_string(parts) + (parts == 1 ? " part each" : " parts each"));
     }
-    void count_polygons(std::uint64_t instances, std::uint64_t polygons) {
-        polygons_ += std::min(saturating_product(instances, polygons), kMostPolygons + 1);
+    void count_polygons(const ObjectDescription& object, std::uint64_t polygons) {
+        polygons_ += std::min(saturating_product(object.instances.size(), polygons), kMostPolygons + 1);
         if (polygons_ > kMostPolygons) throw InputError("the scene has more than 4 billion polygons; split it");
     }
     static std::string quoted(const ObjectDescription& object) {

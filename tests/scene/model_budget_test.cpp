@@ -46,7 +46,24 @@ TEST(ModelBudgetOfScenes, ShapesCountTogetherAndBeforeAnyFileIsRead) {
         text += "[[object]]\nshape='plane'\nname='p" + std::to_string(i) + "'\ncolumns=1024\nrows=1024\n";
     const std::string message = refusal(SceneText(text));
     EXPECT_TRUE(has(message, "object 'p8'")) << message;  // each takes 240 MB
-    EXPECT_TRUE(has(message, "with what was counted before")) << message;
+    // What is named is enough: 40 times 240 MB, and 40 instances.
+    EXPECT_TRUE(has(message, "needs about 240 MB, all of them together 9.4 GB, more than the 2.0 GB")) << message;
+}
+
+TEST(ModelBudgetOfScenes, WhatInstancesOfAllModelsNeedIsNamed) {
+    std::string text;
+    for (int i = 0; i < 3; ++i) {
+        text += "[[object]]\nfile='" + std::to_string(i) + ".obj'\ninstance=[";
+        for (int k = 0; k < 1000; ++k) text += "{},";
+        text += "]\n";
+    }
+    const SceneText scene(text);
+    for (int i = 0; i < 3; ++i)
+        scene.folder().write(std::to_string(i) + ".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const std::string message = refusal(scene, kMega);
+    EXPECT_TRUE(has(message, "object '1.obj' of 1000 instances with 1 part each")) << message;
+    EXPECT_TRUE(has(message, "all of them together 1.8 MB, more than the 1.0 MB")) << message;
+    EXPECT_EQ(refusal(scene, 2 * kMega), "");
 }
 
 TEST(ModelBudgetOfScenes, TheSizeOfAShapeIsKnown) {
@@ -74,7 +91,7 @@ TEST(ModelBudgetOfScenes, SubdividedFilesAreRefusedBeforeTheWork) {
     text.folder().write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n");
     EXPECT_EQ(refusal(text, 24 * kMega), "");  // 131,072 triangles: 22.5 MB
     const std::string message = refusal(text, 22 * kMega);
-    EXPECT_TRUE(has(message, "0.1 million polygons (subdivide 8) needs about 22 MB")) << message;
+    EXPECT_TRUE(has(message, "131072 polygons (subdivide 8) needs about 22 MB")) << message;
 }
 
 /// All objects of a file together, and before the first of them.
@@ -84,7 +101,7 @@ TEST(ModelBudgetOfScenes, SubdividedObjectsCountTogether) {
     const SceneText text("[[object]]\nfile='parts.obj'\nsubdivide=3\n");
     text.folder().write("parts.obj", obj);
     const std::string message = refusal(text, kMega);  // 350 corners become 22,400
-    EXPECT_TRUE(has(message, "the model of 0.0 million polygons (subdivide 3) needs about 1.3 MB")) << message;
+    EXPECT_TRUE(has(message, "the model of 5600 polygons (subdivide 3) needs about 1.3 MB")) << message;
     EXPECT_EQ(refusal(text, 2 * kMega), "");
 }
 
