@@ -39,6 +39,7 @@ Totals count(const Scene& scene) {
         totals.repairs.welded_vertices += mesh.repairs.welded_vertices;
     }
     for (const SceneObject& object : scene.objects) {
+        throw_if_interrupted();
         const Mesh& mesh = scene.meshes[object.mesh];
         totals.triangles += mesh.repairs.input_triangles;
         totals.polygons += mesh.repairs.input_polygons;
@@ -53,7 +54,10 @@ std::vector<std::string> all_notes(const Scene& scene) {
     std::vector<std::string> notes = scene.notes;
     const auto add = [&](const auto& named, const char* what) {
         std::vector<std::string> names;
-        for (const auto& n : named) names.push_back(n.name);
+        for (const auto& n : named) {
+            throw_if_interrupted();
+            names.push_back(n.name);
+        }
         for (const std::string& warning : warnings_on_names(names)) notes.push_back(what + warning);
     };
     add(scene.objects, "object ");

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <unordered_map>
 
+#include "base/interrupt.h"
 #include "base/murmur_hash.h"
 #include "mesh/text_scan.h"
 #include "shading/sheet/compiled_sheet.h"
@@ -101,8 +103,9 @@ MatteNames matte_names_of(CryptoLayer layer, const Frame& frame) {
 
 std::vector<std::string> warnings_on_names(const std::vector<std::string>& names) {
     std::vector<std::string> warnings;
-    std::map<std::uint32_t, std::string> known;
+    std::unordered_map<std::uint32_t, std::string> known;
     for (const std::string& raw : names) {
+        throw_if_interrupted();
         const std::string name = matte_name(raw);
         const auto [other, is_new] = known.emplace(crypto_id(name), name);
         if (!is_new) {

@@ -36,6 +36,7 @@ constexpr std::size_t line_name_number(LineClass drawn_as, bool is_hidden) {
 }
 
 /// What makes a name hard to use in Cryptomatte: a sentence for each, beginning with the name; none mostly.
+/// Throws Interrupted where the user asked to stop.
 std::vector<std::string> warnings_on_names(const std::vector<std::string>& names);
 
 }  // namespace burin

@@ -61,8 +61,8 @@ TEST(ModelBudgetOfScenes, WhatInstancesOfAllModelsNeedIsNamed) {
     for (int i = 0; i < 3; ++i)
         scene.folder().write(std::to_string(i) + ".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     const std::string message = refusal(scene, kMega);
-    EXPECT_TRUE(has(message, "object '1.obj' of 1000 instances with 1 part each")) << message;
-    EXPECT_TRUE(has(message, "all of them together 1.8 MB, more than the 1.0 MB")) << message;
+    EXPECT_TRUE(has(message, "1.obj' of 1000 instances with 1 part each needs about 586 KB")) << message;
+    EXPECT_TRUE(has(message, "all of them together 1.7 MB, more than the 1.0 MB")) << message;
     EXPECT_EQ(refusal(scene, 2 * kMega), "");
 }
 
