@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 
 namespace burin {
 
@@ -48,6 +49,7 @@ void refuse_to_overwrite(const std::vector<OutputFile>& outputs, const std::vect
     }
     if (files.empty()) return;
     for (const std::string& input : inputs) {
+        throw_if_interrupted();
         if (::stat(input.c_str(), &info) != 0) continue;
         const auto found = files.find({info.st_dev, info.st_ino});
         if (found == files.end()) continue;

@@ -1,6 +1,7 @@
 #include "mesh/gltf.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -17,6 +18,7 @@
 #include "mesh/gltf_plan.h"
 #include "mesh/gltf_pose.h"
 #include "mesh/gltf_surface.h"
+#include "mesh/model_path.h"
 
 namespace burin {
 namespace {
@@ -65,10 +67,22 @@ class GltfReader {
         note_what_is_left_out();
         buffers_->check_are_whole();
         scene_.buffer_files = buffers_->files();
+        add_pictures();
         return std::move(scene_);
     }
 
   private:
+    /// Pictures are not looked at, whatever stands there.
+    void add_pictures() {
+        if (!root_.has("images") || !root_.at("images").json().is_array()) return;
+        const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
+        for (const auto& image : root_.at("images").json()) {
+            if (!image.is_object() || !image.contains("uri") || !image["uri"].is_string()) continue;
+            const std::string uri = decode_percent(image["uri"].get<std::string>());
+            if (!uri.starts_with("data:") && uri.find('\0') == std::string::npos)
+                scene_.picture_files.push_back((folder / uri).string());
+        }
+    }
     void check_version() const {
         if (!json_.is_object() || !root_.has("asset")) {
             throw InputError(path_ + ": this is no glTF file (it has no 'asset')");

@@ -35,6 +35,7 @@ struct GltfScene {
     std::uint64_t skipped_primitives = 0;      ///< of points, or without positions
     std::vector<std::string> notes;            ///< these, and what the file itself makes invisible, a line each
     std::vector<std::string> buffer_files;     ///< paths of the buffers that are files
+    std::vector<std::string> picture_files;    ///< paths of pictures, which are not read and may be missing
     std::optional<GltfMotion> motion;          ///< of what is above; none: nothing moves, or nobody asks
     std::vector<AnimationSummary> animations;  ///< if they were asked for
 };

@@ -53,22 +53,6 @@ std::string decode_base64(const JsonPlace& place, std::string_view text) {
     return bytes;
 }
 
-/// "a%20b" as "a b".
-std::string decode_percent(std::string_view text) {
-    std::string result;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        unsigned value = 0;
-        if (text[i] == '%' && i + 2 < text.size() &&
-            std::from_chars(text.data() + i + 1, text.data() + i + 3, value, 16).ptr == text.data() + i + 3) {
-            result += static_cast<char>(value);
-            i += 2;
-        } else {
-            result += text[i];
-        }
-    }
-    return result;
-}
-
 std::size_t component_size(std::uint64_t type) {
     switch (type) {
         case 5120:

@@ -123,6 +123,7 @@ Model model_of(const std::string& path, GltfScene scene, const MeshOptions& opti
     model.materials = std::move(scene.materials);
     model.skipped_primitives = scene.skipped_primitives;
     model.other_files = std::move(scene.buffer_files);
+    model.other_files.insert(model.other_files.end(), scene.picture_files.begin(), scene.picture_files.end());
     add_notes(path, scene.notes, model);
     return model;
 }

@@ -44,7 +44,7 @@ struct Model {
     std::uint64_t non_finite_polygons = 0;  ///< left out, of an STL
     std::vector<std::string> notes;  ///< what the user should know of how the file was read: "path: what", a line each
     std::vector<std::string> attribute_names;   ///< of the values at vertices that have names, if any were asked for
-    std::vector<std::string> other_files;       ///< that were read beside the model's own: materials, buffers
+    std::vector<std::string> other_files;       ///< beside the model's own: materials, buffers, textures (not read)
     std::shared_ptr<const ModelPlayer> player;  ///< how it moves; nullptr: it does not, or nobody asks
     std::vector<AnimationSummary> animations;   ///< of the file, if they were asked for
 };

@@ -44,7 +44,21 @@ bool next_statement(LineReader& lines, std::string_view& statement, std::string&
     return true;
 }
 
-void read_material_file(const std::string& path, MaterialLibrary& library, Misunderstood& misunderstood) {
+/// The file that a statement for a texture names: the last word behind options, or all, for names have blanks.
+std::string_view texture_name(std::string_view arguments) {
+    if (!arguments.starts_with('-')) return arguments;
+    const std::size_t blank = arguments.find_last_of(" \t");
+    return blank == std::string_view::npos ? std::string_view() : arguments.substr(blank + 1);
+}
+
+bool names_texture(std::string_view keyword) {
+    return keyword.starts_with("map_") || keyword == "bump" || keyword == "disp" || keyword == "decal" ||
+           keyword == "refl" || keyword == "norm";
+}
+
+/// `textures`: gets the names of pictures, which are not read.
+void read_material_file(const std::string& path, MaterialLibrary& library, Misunderstood& misunderstood,
+                        std::set<std::string>& textures) {
     const MappedFile file(path);
     if (file.bytes().starts_with("\xFF\xFE") || file.bytes().starts_with("\xFE\xFF"))
         throw InputError(path + ": the text is UTF-16");
@@ -85,6 +99,8 @@ void read_material_file(const std::string& path, MaterialLibrary& library, Misun
             has_dissolve = is_dissolve;
             const double opacity = is_dissolve ? value : value < 1 ? 1 - value : 1;
             current->opacity = static_cast<float>(std::clamp(opacity, 0.0, 1.0));
+        } else if (names_texture(keyword)) {
+            textures.emplace(texture_name(scan.rest()));
         }
     }
 }
@@ -92,8 +108,7 @@ void read_material_file(const std::string& path, MaterialLibrary& library, Misun
 /// Reads the material files of an OBJ, each once, by whatever names it is called.
 class MaterialFiles {
   public:
-    MaterialFiles(const std::string& obj_path, std::vector<std::string>* files_read)
-        : obj_path_(obj_path), files_read_(files_read) {
+    MaterialFiles(const std::string& obj_path, std::vector<std::string>* files) : obj_path_(obj_path), files_(files) {
         folder_ = std::filesystem::path(obj_path).parent_path().string();
         if (folder_.empty()) folder_ = ".";
         if (const auto obj = file_at(obj_path)) outcomes_[*obj] = false;
@@ -145,9 +160,11 @@ class MaterialFiles {
     }
     bool read_file(const std::string& path) {
         if (path.empty()) return false;
+        if (files_ != nullptr) files_->push_back(path);
         try {
-            read_material_file(path, library_, misunderstood_);
-            if (files_read_ != nullptr) files_read_->push_back(path);
+            std::set<std::string> textures;
+            read_material_file(path, library_, misunderstood_, textures);
+            add_textures(path, textures);
             return true;
         } catch (const InputError&) {
             // A missing material file is so common that it must not stop the drawing.
@@ -155,8 +172,18 @@ class MaterialFiles {
         }
     }
 
+    void add_textures(const std::string& path, const std::set<std::string>& textures) {
+        if (files_ == nullptr) return;
+        const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+        for (std::string name : textures) {
+            if (name.empty() || name.find('\0') != std::string::npos) continue;
+            std::replace(name.begin(), name.end(), '\\', '/');  // as it is written on Windows
+            files_->push_back((folder / name).string());
+        }
+    }
+
     const std::string& obj_path_;
-    std::vector<std::string>* files_read_;
+    std::vector<std::string>* files_;
     std::string folder_;
     MaterialLibrary library_;
     Misunderstood misunderstood_;
@@ -169,8 +196,8 @@ class MaterialFiles {
 }  // namespace
 
 MaterialLibrary read_material_files(const std::string& obj_path, const std::vector<std::string>& file_names,
-                                    std::vector<std::string>* files_read, std::vector<std::string>* notes) {
-    MaterialFiles files(obj_path, files_read);
+                                    std::vector<std::string>* other_files, std::vector<std::string>* notes) {
+    MaterialFiles files(obj_path, other_files);
     std::size_t unread = 0;
     std::string first_unread;
     for (const std::string& names : file_names) {

@@ -28,8 +28,12 @@ class SafeFiles : public testing::Test {
   protected:
     SafeFiles() {
         folder_.write("cube.obj", "mtllib cube.mtl\n" + std::string(kCubeObj));
-        folder_.write("cube.mtl", "newmtl red\nKd 1 0 0\n");
-        for (const auto& [name, content] : tetrahedra()) folder_.write(name, content);
+        folder_.write("cube.mtl", "newmtl red\nKd 1 0 0\nmap_Kd -s 1 1 1 skin.png\n");
+        for (auto [name, content] : tetrahedra()) {
+            if (name == "tetra.gltf") content.insert(1, R"("images": [{"uri": "a%20skin.png"}, {"uri": 3}, 5],)");
+            folder_.write(name, content);
+        }
+        for (const char* name : {"skin.png", "a skin.png"}) folder_.write(name, "a picture");
         folder_.write("both.toml", "[[object]]\nfile='cube.obj'\n[[object]]\nfile='tetra.gltf'\n");
     }
 
@@ -51,8 +55,9 @@ class SafeFiles : public testing::Test {
     TemporaryFolder folder_;
 };
 
-/// The scene file, its models, their materials and buffers.
-const char* const kInputs[] = {"both.toml", "cube.obj", "cube.mtl", "tetra.gltf", "tetra.bin"};
+/// The scene file, its models, their materials and buffers, and textures that are not read.
+const char* const kInputs[] = {"both.toml", "cube.obj", "cube.mtl",  "tetra.gltf",
+                               "tetra.bin", "skin.png", "a skin.png"};
 
 TEST_F(SafeFiles, NoOutputIsAnInput) {
     fs::create_directory(folder_.file("report"));

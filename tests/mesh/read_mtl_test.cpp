@@ -49,6 +49,18 @@ TEST_F(ReadMtl, WhereThereIsADItCounts) {
     EXPECT_EQ(opacity("d 0\nTr 1"), 0) << "what both say";
 }
 
+TEST_F(ReadMtl, TexturesAreNamedOnceAndNotRead) {
+    folder_.write("a.mtl",
+                  "newmtl m\nmap_Kd wood bark.png\nMAP_Bump -bm 0.5 -s 1 1 1 sub\\rough.png\nmap_d wood bark.png\n"
+                  "norm n.png\nmap_Ks\nmap_Ka -clamp\nrefl -type sphere ../sky.hdr\nKd 1 0 0\n");
+    std::vector<std::string> files;
+    EXPECT_EQ(read_material_files(folder_.file("a.obj"), {"a.mtl"}, &files).at("m").color, glm::vec3(1, 0, 0));
+    std::vector<std::string> expected;
+    for (const char* name : {"a.mtl", "../sky.hdr", "n.png", "sub/rough.png", "wood bark.png"})
+        expected.push_back(folder_.file(name));
+    EXPECT_EQ(files, expected);
+}
+
 TEST_F(ReadMtl, WhatIsNoNumberBehindDIsNoOpacity) {
     EXPECT_EQ(opacity("d -halo 0.5"), 1);
     EXPECT_EQ(opacity("d -halo 0.5\nTr 0.25"), 0.75f);
