@@ -3,10 +3,16 @@
 #include <dlfcn.h>
 #include <sys/auxv.h>
 
+#include <chrono>
 #include <filesystem>
+#include <future>
+#include <memory>
 #include <string>
+#include <thread>
+#include <utility>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 
 namespace burin {
 namespace {
@@ -38,27 +44,43 @@ fs::path own_path() {
 struct Module {
     void* handle = nullptr;
     std::string failure;
-
-    explicit Module(const char* name) {
-        const fs::path folder = own_path().parent_path();
-        std::error_code ignored;
-        for (const fs::path& candidate :
-             {folder / name, folder / "burin" / name, folder / BURIN_MODULES_FROM_PROGRAM / name,
-              folder.parent_path() / "lib" / "burin" / name}) {
-            if (handle == nullptr && fs::exists(candidate, ignored)) load(candidate.c_str());
-        }
-        if (handle == nullptr && failure.empty()) load(name);  // the loader's own search path
-    }
-    void load(const char* path) {
-        handle = ::dlopen(path, RTLD_NOW | RTLD_LOCAL);
-        if (handle == nullptr) failure = ::dlerror();
-    }
 };
+
+Module load(const std::string& path) {
+    Module module{::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL), {}};
+    if (module.handle == nullptr) module.failure = ::dlerror();
+    return module;
+}
+
+Module find_and_load(const std::string& name) {
+    const fs::path folder = own_path().parent_path();
+    std::error_code ignored;
+    Module module;
+    for (const fs::path& candidate :
+         {folder / name, folder / "burin" / name, folder / BURIN_MODULES_FROM_PROGRAM / name,
+          folder.parent_path() / "lib" / "burin" / name}) {
+        if (module.handle == nullptr && fs::exists(candidate, ignored)) module = load(candidate.string());
+    }
+    if (module.handle == nullptr && module.failure.empty()) module = load(name);  // the loader's own search path
+    return module;
+}
+
+/// Loads a module. What it needs may be hundreds of libraries, which take a quarter of a second and cannot be
+/// interrupted: a thread loads them, which is left to itself where this one is asked to stop.
+Module load_unless_interrupted(const std::string& name) {
+    constexpr auto kPatience = std::chrono::milliseconds(10);
+    throw_if_interrupted();
+    std::packaged_task<Module()> task([name] { return find_and_load(name); });
+    std::future<Module> loaded = task.get_future();
+    std::thread(std::move(task)).detach();
+    while (loaded.wait_for(kPatience) != std::future_status::ready) throw_if_interrupted();
+    return loaded.get();
+}
 
 }  // namespace
 
 void* module_function(const char* module, const char* name, const char* purpose, const char* remedy) {
-    const Module loaded(module);  // what is loaded already is only found again
+    const Module loaded = load_unless_interrupted(module);  // what is loaded already is only found again
     void* const function = loaded.handle != nullptr ? ::dlsym(loaded.handle, name) : nullptr;
     if (function == nullptr) {
         throw InputError("cannot load " + std::string(module) + ", which " + purpose + ": " +

@@ -128,7 +128,9 @@ int main(int argc, char** argv) {
         return kWrongUsage;
     } catch (const burin::Interrupted& interrupted) {
         print_error("burin: ", interrupted.what());
-        return kInterrupted;
+        std::fflush(stdout);
+        burin::remove_temporary_files();
+        ::_exit(kInterrupted);  // a thread may still load a module, and the end of a program would wait for it
     } catch (const burin::InputError& error) {
         print_error("", error.what());
         return kFailed;
