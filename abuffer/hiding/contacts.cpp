@@ -228,9 +228,10 @@ std::optional<Occluder> Contacts::what_covers_in_plane(glm::dvec2 place, Surface
     const glm::dvec2 at = to_pixels(place);
     for (HalfEdge g = mesh.partners[h]; g != h; g = mesh.partners[g]) {
         const SurfaceId s{own.instance, g / 3};
+        auto part = part_at(place, s);
+        if (!part) continue;
         const LineClassSet classes = contact_classes(screen_.surfaces(), own, s, at, criteria);
-        if (!(classes & criteria.classes).empty() || classes.has(LineClass::crease)) continue;
-        if (const auto part = part_at(place, s)) return part;
+        if ((classes & criteria.classes).empty() && !classes.has(LineClass::crease)) return part;
     }
     return std::nullopt;
 }
