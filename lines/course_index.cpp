@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "mesh/vectors.h"
@@ -12,8 +13,10 @@ namespace {
 /// Two courses run nearly the same way if the sine of the angle between them is at most this. For the shortest ones it
 /// is how far the end may be off: snapping turns them.
 constexpr double kMostTurned = 1.0 / 8, kMostOffPx = 1.0 / 32;
-constexpr int kSmallestCellPx = 4;
-constexpr std::int64_t kMostCells = 1 << 20;
+/// Shorter ones may run any way.
+constexpr double kHasDirectionPx = kMostOffPx / kMostTurned;
+constexpr int kSmallestCellOfWaysPx = 8, kSmallestCellOfEndsPx = 2;
+constexpr std::int64_t kMostCells = 1 << 19;
 
 /// Cuts [begin, end] to where a value that runs from `at_0` at 0 to `at_1` at 1 is within [low, high].
 bool cut(double at_0, double at_1, double low, double high, double& begin, double& end) {
@@ -27,24 +30,62 @@ bool cut(double at_0, double at_1, double low, double high, double& begin, doubl
 }  // namespace
 
 CourseIndex::CourseIndex(PixelRect picture, double reach_px)
-    : picture_(picture), reach_px_(reach_px), cell_px_(kSmallestCellPx) {
-    const auto count = [&](int length) { return std::int64_t{length} / cell_px_ + 1; };
-    while (cell_px_ < 2 * reach_px || count(picture.width()) * count(picture.height()) > kMostCells) cell_px_ *= 2;
-    columns_ = static_cast<int>(count(picture.width()));
-    rows_ = static_cast<int>(count(picture.height()));
-    first_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), kNone);
+    : picture_(picture),
+      reach_px_(reach_px),
+      ways_(grid_of(kSmallestCellOfWaysPx)),
+      ends_(grid_of(kSmallestCellOfEndsPx)) {}
+
+CourseIndex::Grid CourseIndex::grid_of(int smallest_px) const {
+    Grid grid{smallest_px, 0, 0};
+    const auto count = [&](int length) { return std::int64_t{length} / grid.cell_px + 1; };
+    while (grid.cell_px < 2 * reach_px_ || count(picture_.width()) * count(picture_.height()) > kMostCells)
+        grid.cell_px *= 2;
+    grid.columns = static_cast<int>(count(picture_.width()));
+    grid.rows = static_cast<int>(count(picture_.height()));
+    return grid;
+}
+
+/// The number of a direction, from 0; neighbours are at most a sixteenth of a half turn apart. kDirections: none.
+int CourseIndex::direction_of(glm::dvec2 along) {
+    if (!(glm::length(along) >= kHasDirectionPx)) return kDirections;
+    const double half_turns = std::atan2(along.y, along.x) / std::numbers::pi;
+    return static_cast<int>(std::floor(half_turns * kDirections) + kDirections) % kDirections;
+}
+
+void CourseIndex::add_to(Cells& cells, const Grid& grid, std::size_t cell, std::uint32_t course) {
+    if (cells.empty())
+        cells.assign(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows), kNone);
+    entries_.push_back({course, cells[cell]});
+    cells[cell] = static_cast<std::uint32_t>(entries_.size() - 1);
+}
+
+template <typename Visit>
+void CourseIndex::for_courses(const Cells& cells, std::size_t cell, const Visit& visit) const {
+    if (cells.empty()) return;
+    for (std::uint32_t i = cells[cell]; i != kNone; i = entries_[i].next) visit(entries_[i].course);
+}
+
+/// Ends outside the picture are in the cells at its sides.
+void CourseIndex::note_end(glm::dvec2 place, std::uint32_t course) {
+    const auto number = [&](double at, int origin, int count) {
+        return static_cast<std::size_t>(std::clamp(std::floor((at - origin) / ends_.cell_px), 0.0, count - 1.0));
+    };
+    const std::size_t column = number(place.x, picture_.x0, ends_.columns),
+                      row = number(place.y, picture_.y0, ends_.rows);
+    add_to(by_end_, ends_, row * static_cast<std::size_t>(ends_.columns) + column, course);
 }
 
 /// Calls visit(cell) for the cells that come within `around_px` of a way, and perhaps for a few more.
 template <typename Visit>
-void CourseIndex::for_cells(glm::dvec2 from, glm::dvec2 to, double around_px, const Visit& visit) const {
+void CourseIndex::for_cells(const Grid& grid, glm::dvec2 from, glm::dvec2 to, double around_px,
+                            const Visit& visit) const {
     const glm::dvec2 origin(picture_.x0, picture_.y0);
-    glm::dvec2 a = (from - origin) / double(cell_px_), b = (to - origin) / double(cell_px_);
-    const double around = around_px / cell_px_;
+    glm::dvec2 a = (from - origin) / double(grid.cell_px), b = (to - origin) / double(grid.cell_px);
+    const double around = around_px / grid.cell_px;
     // The way is followed along the axis in which it is longer, column by column (or row by row).
     const int major = std::abs(b.x - a.x) >= std::abs(b.y - a.y) ? 0 : 1, minor = 1 - major;
     if (b[major] < a[major]) std::swap(a, b);
-    const int count[2] = {columns_, rows_};
+    const int count[2] = {grid.columns, grid.rows};
     const auto clamped = [](double v, int end) {
         return static_cast<int>(std::clamp(std::floor(v), -1.0, static_cast<double>(end)));
     };
@@ -56,7 +97,7 @@ void CourseIndex::for_cells(glm::dvec2 from, glm::dvec2 to, double around_px, co
         const double p = a[minor] + slope * (begin - a[major]), q = a[minor] + slope * (end - a[major]);
         const int high = std::min(clamped(std::max(p, q) + around, count[minor]), count[minor] - 1);
         for (int j = std::max(clamped(std::min(p, q) - around, count[minor]), 0); j <= high; ++j) {
-            visit(static_cast<std::size_t>(major == 0 ? j * columns_ + i : i * columns_ + j));
+            visit(static_cast<std::size_t>(major == 0 ? j * grid.columns + i : i * grid.columns + j));
         }
     }
 }
@@ -65,10 +106,10 @@ std::uint32_t CourseIndex::add(glm::dvec2 from, glm::dvec2 to) {
     const auto course = static_cast<std::uint32_t>(courses_.size());
     courses_.push_back({from, to});
     asked_.push_back(0);
-    for_cells(from, to, 0, [&](std::size_t cell) {
-        entries_.push_back({course, first_[cell]});
-        first_[cell] = static_cast<std::uint32_t>(entries_.size() - 1);
-    });
+    Cells& alike = by_direction_[static_cast<std::size_t>(direction_of(to - from))];
+    for_cells(ways_, from, to, 0, [&](std::size_t cell) { add_to(alike, ways_, cell, course); });
+    note_end(from, course);
+    note_end(to, course);
     return course;
 }
 
@@ -146,12 +187,19 @@ std::span<const CourseIndex::Cover> CourseIndex::find(glm::dvec2 from, glm::dvec
     const double length = glm::distance(from, to);
     if (courses_.empty() || !(length > 0)) return {};
     ++find_count_;
-    for_cells(from, to, reach_px_, [&](std::size_t cell) {
-        for (std::uint32_t i = first_[cell]; i != kNone; i = entries_[i].next) {
-            const std::uint32_t course = entries_[i].course;
-            if (asked_[course] == find_count_) continue;
-            asked_[course] = find_count_;
-            add_overlap({from, to}, course);
+    const int direction = direction_of(to - from);
+    const auto may_run_alike = [&](int other) {
+        const int apart = std::abs(other - direction);
+        return direction == kDirections || other == kDirections || apart <= 1 || apart == kDirections - 1;
+    };
+    for_cells(ways_, from, to, reach_px_, [&](std::size_t cell) {
+        for (int other = 0; other <= kDirections; ++other) {
+            if (!may_run_alike(other)) continue;
+            for_courses(by_direction_[static_cast<std::size_t>(other)], cell, [&](std::uint32_t course) {
+                if (asked_[course] == find_count_) return;
+                asked_[course] = find_count_;
+                add_overlap({from, to}, course);
+            });
         }
     });
     if (overlaps_.empty()) return {};
@@ -160,12 +208,12 @@ std::span<const CourseIndex::Cover> CourseIndex::find(glm::dvec2 from, glm::dvec
     return covers_;
 }
 
-std::span<const std::uint32_t> CourseIndex::around(glm::dvec2 place) {
-    around_.clear();
-    for_cells(place, place, reach_px_, [&](std::size_t cell) {
-        for (std::uint32_t i = first_[cell]; i != kNone; i = entries_[i].next) around_.push_back(entries_[i].course);
+std::span<const std::uint32_t> CourseIndex::that_end_near(glm::dvec2 place) {
+    near_.clear();
+    for_cells(ends_, place, place, reach_px_, [&](std::size_t cell) {
+        for_courses(by_end_, cell, [&](std::uint32_t course) { near_.push_back(course); });
     });
-    return around_;
+    return near_;
 }
 
 }  // namespace burin

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -38,8 +39,8 @@ class CourseIndex {
     /// added first.
     std::span<const Cover> find(glm::dvec2 from, glm::dvec2 to);
 
-    /// The courses that may come within the reach of a place, in any order, some of them more than once.
-    std::span<const std::uint32_t> around(glm::dvec2 place);
+    /// The courses of which an end may be within the reach of a place, in any order, some of them more than once.
+    std::span<const std::uint32_t> that_end_near(glm::dvec2 place);
 
   private:
     static constexpr std::uint32_t kNone = ~std::uint32_t{0};
@@ -49,23 +50,38 @@ class CourseIndex {
     struct Entry {
         std::uint32_t course, next;
     };
+    /// Square cells of the picture.
+    struct Grid {
+        int cell_px, columns, rows;
+    };
+    /// The first entry of each cell.
+    using Cells = std::vector<std::uint32_t>;
+    Grid grid_of(int smallest_px) const;
+    void add_to(Cells& cells, const Grid& grid, std::size_t cell, std::uint32_t course);
     template <typename Visit>
-    void for_cells(glm::dvec2 from, glm::dvec2 to, double around_px, const Visit& visit) const;
+    void for_courses(const Cells& cells, std::size_t cell, const Visit& visit) const;
+    void note_end(glm::dvec2 place, std::uint32_t course);
+    template <typename Visit>
+    void for_cells(const Grid& grid, glm::dvec2 from, glm::dvec2 to, double around_px, const Visit& visit) const;
     void add_overlap(const Course& way, std::uint32_t course);
     void choose_first_courses();
     void drop_short(double length_px);
 
     PixelRect picture_;
     double reach_px_;
-    int cell_px_;
-    int columns_, rows_;
-    std::vector<std::uint32_t> first_;  // entry of each cell
+    Grid ways_, ends_;
+    /// Courses are kept apart by direction: few of those that cross run nearly the same way. The last ones are too
+    /// short to have one.
+    static constexpr int kDirections = 16;
+    static int direction_of(glm::dvec2 along);
+    std::array<Cells, kDirections + 1> by_direction_;  // empty: none is there
+    Cells by_end_;
     std::vector<Entry> entries_;
     std::vector<Course> courses_;
     std::vector<std::uint32_t> asked_;  // by which find() each course was looked at
     std::uint32_t find_count_ = 0;
     std::vector<Cover> overlaps_, covers_;
-    std::vector<std::uint32_t> around_;
+    std::vector<std::uint32_t> near_;
 };
 
 /// Calls visit(begin, end) for the parts of [0, 1] that are not covered.

@@ -118,7 +118,7 @@ void SharedDashes::extend(std::vector<Member>& run) {
     for (;;) {
         const glm::dvec2 end = end_of(run.back(), true);
         Member next{~std::uint32_t{0}, false};
-        for (const std::uint32_t course : index_.around(end)) {
+        for (const std::uint32_t course : index_.that_end_near(end)) {
             if (course >= next.course || is_in_run_[course]) continue;
             for (const bool is_backwards : {false, true}) {
                 const Member m{course, is_backwards};
