@@ -16,7 +16,7 @@ constexpr double kCosOfFacets = 0.961, kCosOfParallels = 0.99996;
 /// Facets that are parallel are told from sides of boards by those beside them: these bend by at most 31 degrees, and
 /// are at most four times as long or as short.
 constexpr double kCosOfRim = 0.857, kMostUneven = 4;
-constexpr int kMostAroundVertex = 64;
+constexpr int kMostTurns = 64;  // a vertex, or an edge
 constexpr double kNarrowPart = 1.0 / 12;
 /// A facet is asked for laps over others up to so many times as long.
 constexpr double kMostTimesLonger = 8;
@@ -38,8 +38,14 @@ class Rim {
     glm::dvec3 corner(HalfEdge h, HalfEdge k) const {
         return surfaces_.view_position(instance_, mesh_.triangles[h / 3][(h + k) % 3]);
     }
-    /// Whether an edge is one of many that a curve was cut into.
-    bool is_facet(HalfEdge h) const { return goes_on(h, 1) && goes_on(h, 2); }
+    /// Whether an edge of a triangle is one of many that a curve was cut into. `h`: any half-edge on it.
+    bool is_facet(HalfEdge h, std::uint32_t triangle) const {
+        for (int k = 0; h / 3 != triangle; ++k) {
+            if (k == kMostTurns) return false;
+            h = mesh_.next_on_edge[h];
+        }
+        return goes_on(h, 1) && goes_on(h, 2);
+    }
 
   private:
     /// Whether the edge goes on so at one of its ends. `step`: to the next edge of a triangle, or the one before.
@@ -56,7 +62,7 @@ class Rim {
     std::optional<HalfEdge> edge_after(HalfEdge h, HalfEdge step) const {
         const auto beside = [step](HalfEdge e) { return e - e % 3 + (e % 3 + step) % 3; };
         HalfEdge next = beside(h);
-        for (int k = 0; k < kMostAroundVertex; ++k) {
+        for (int k = 0; k < kMostTurns; ++k) {
             const HalfEdge partner = mesh_.next_on_edge[next];
             const bool ends = partner == next || mesh_.next_on_edge[partner] != next ||
                               edge_classes(surfaces_, {{instance_, next / 3}, next}, bends_).has(LineClass::crease);
@@ -126,7 +132,8 @@ bool laps_narrowly(const SurfaceSet& surfaces, SurfaceId own, HalfEdge edge, con
     const double lap = other_end->fraction * reach;
     const bool is_narrow = (cosine >= kCosAlong && lap <= kNarrowPx * pixel) ||
                            (cosine >= kCosOfFacets && lap <= kNarrowPart * std::max(length, other_length) &&
-                            (cosine <= kCosOfParallels || (rim.is_facet(edge) && other_rim.is_facet(e.half_edge))));
+                            (cosine <= kCosOfParallels || (rim.is_facet(edge, own.triangle) &&
+                                                           other_rim.is_facet(e.half_edge, e.surface.triangle))));
     if (!is_narrow) return false;
     const double beyond = other_end->fraction + 2 * kBesidePx / glm::distance(begin_px, end_px);
     return !end_of_face({own, begin_px}, glm::mix(begin_px, end_px, beyond));
