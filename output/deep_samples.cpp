@@ -157,9 +157,19 @@ void DeepSampler::find_parts(const Mattes::DeepPixel& pixel) {
     float nearest = kFar, nearest_opaque = kFar;
     glm::dvec3 color(0.0);
     for (const DeepSurface& surface : pixel.surfaces) {
-        parts_.push_back(
-            {&surface, nullptr, surface.distance, static_cast<double>(surface.share), glm::dvec3(surface.color)});
-        covered += static_cast<double>(surface.share);
+        Part& part = parts_.emplace_back(
+            Part{&surface, nullptr, surface.distance, static_cast<double>(surface.share), glm::dvec3(surface.color)});
+        part.alone = part.share;
+        part.color_alone = part.color;
+        if (pixel.is_mean) {
+            part.alone = static_cast<double>(surface.alone);
+            if (part.share > 0) {
+                part.color_alone *= part.alone / part.share;
+            } else {
+                part.color = glm::dvec3(0.0);
+            }
+        }
+        covered += part.share;
         color += parts_.back().color;
         nearest = std::min(nearest, surface.distance);
         if (surface.is_opaque) nearest_opaque = std::min(nearest_opaque, surface.distance);
@@ -315,8 +325,12 @@ void DeepSampler::lay_in_turns() {
     glm::dvec4 rounding = whole;
     for (const Part& part : parts_)
         rounding -= glm::dvec4(part.color, part.share) * (part.surface != nullptr ? left_ : 1.0);
+    const auto is_seen = [](const Part& part) { return part.line != nullptr || part.share > 0; };
+    const auto last = std::find_if(parts_.rbegin(), parts_.rend(), is_seen);
+    const Part* const last_seen = last != parts_.rend() ? &*last : nullptr;
     double in_front = 0;  // of surfaces
     for (const Part& part : parts_) {
+        if (!is_seen(part) && all.has_any_left()) continue;
         double share = part.share * (part.surface != nullptr ? left_ : 1.0);
         glm::dvec3 color = part.color * (part.surface != nullptr ? left_ : 1.0);
         if (part.surface != nullptr) {
@@ -329,17 +343,17 @@ void DeepSampler::lay_in_turns() {
         glm::dvec3 own_color;
         if (all.has_any_left()) {
             own_color = all.color_for(color);
-            if (&part == &parts_.back() && part.surface != nullptr) {
+            if (&part == last_seen && part.surface != nullptr) {
                 alpha = all.last_alpha(whole);
                 own_color = all.last_color(whole);
             }
         } else if (part.surface != nullptr) {  // lines leave nothing of it: as it would be without them
-            alpha = std::min(part.share / std::max(1.0 - in_front, part.share), 1.0);
-            own_color = part.color * (alpha / part.share);
+            alpha = std::min(part.alone / std::max(1.0 - in_front, part.alone), 1.0);
+            own_color = part.color_alone * (alpha / part.alone);
         } else {
             continue;
         }
-        if (part.surface != nullptr) in_front += part.share;
+        if (part.surface != nullptr) in_front += part.alone;
         const DeepSample& sample = add_sample(part, alpha, own_color);
         if (part.line != nullptr) classes.add(part.line->line.drawn_as, static_cast<double>(sample.alpha) * all.left());
         all.add(static_cast<double>(sample.alpha), glm::dvec3(sample.color));

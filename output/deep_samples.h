@@ -47,6 +47,9 @@ class DeepSampler {
         float distance = 0;
         double share = 0;       // of the pixel: of a surface before lines are drawn, of a line as it is seen
         glm::dvec3 color{0.0};  // times the share
+        /// Of a surface: share and colour without any line.
+        double alone = 0;
+        glm::dvec3 color_alone{0.0};
     };
     /// A sample of a part, rounded.
     struct Layer {

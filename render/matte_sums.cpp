@@ -7,6 +7,13 @@
 #include "render/seen_parts.h"
 
 namespace burin {
+namespace {
+
+/// Where lines leave nothing of a surface, it is as if they left so much: its colour and distance are wanted. What is
+/// seen of its share is more.
+constexpr double kFaint = 1e-9, kSeen = 1e-6;
+
+}  // namespace
 
 MatteSums::MatteSums(PixelRect crop, const Mattes& mean)
     : crop_(crop),
@@ -37,6 +44,7 @@ void MatteSums::merge(Sums& more, Sums& sums) {
         sums.back().share += sum.share;
         sums.back().distance += sum.distance;
         sums.back().color += sum.color;
+        sums.back().alone += sum.alone;
     }
 }
 
@@ -74,8 +82,9 @@ void MatteSums::add_deep(const Mattes& picture, PixelRect rows, Sums& sums) cons
             covered += static_cast<double>(s.share);
             key.owner = s.owner;
             key.is_opaque = s.is_opaque;
-            const double share = static_cast<double>(s.share) * left.all;
-            own.push_back({key, share, static_cast<double>(s.distance) * share, glm::dvec3(s.color) * left.all});
+            const double seen = left.all > 0 ? left.all : kFaint, alone = static_cast<double>(s.share);
+            own.push_back(
+                {key, alone * seen, static_cast<double>(s.distance) * alone * seen, glm::dvec3(s.color) * seen, alone});
         }
         key.is_line = true;
         key.is_opaque = false;
@@ -125,8 +134,10 @@ void MatteSums::put_deep(const Sums& sums, PixelRect rows, double count, const M
         const auto share = static_cast<float>(sum.share / count),
                    distance = static_cast<float>(sum.distance / sum.share);
         if (!key.is_line) {
-            batch.deep_surfaces.push_back(
-                {place, false, key.is_opaque, key.owner, share, distance, glm::vec3(sum.color / count)});
+            const bool is_seen = sum.share > kSeen * sum.alone;
+            batch.deep_surfaces.push_back({place, false, key.is_opaque, key.owner, is_seen ? share : 0.0f, distance,
+                                           glm::vec3(sum.color / count * (is_seen ? 1.0 : sum.alone / sum.share)),
+                                           static_cast<float>(sum.alone / count)});
             continue;
         }
         batch.deep_lines.push_back({{place, key.drawn_as, key.is_hidden, false, 0, key.owner, share},

@@ -39,7 +39,8 @@ class MatteSums {
     struct Sum {
         Key key;
         double share = 0, distance = 0;  // times the share
-        glm::dvec3 color{0.0};
+        glm::dvec3 color{0.0};           // times the share
+        double alone = 0;                // of a surface: the share that it would have without lines
     };
     /// Sorted by their keys, each once.
     using Sums = std::vector<Sum>;

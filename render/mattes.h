@@ -74,9 +74,10 @@ struct DeepSurface {
     bool is_transparent = false;  ///< as SurfaceShare has it
     bool is_opaque = true;        ///< the surface itself
     MatteOwner owner;
-    float share = 0;        ///< before lines are drawn over it
+    float share = 0;        ///< before lines are drawn over it; of a mean: that is seen, 0 where lines leave nothing
     float distance = 0;     ///< along the view axis, the mean of its samples
-    glm::vec3 color{0.0f};  ///< times the share
+    glm::vec3 color{0.0f};  ///< times the share, or, where that is 0, times `alone`
+    float alone = 0;        ///< of a mean: the share before lines are drawn over it
 };
 
 /// What a deep file has of a line in a pixel. The share of a hidden one is all that it covers, whatever lies above it.

@@ -325,6 +325,15 @@ def main():
         render(still, "--deep", folder / "deep.exr", "--hidden", "solid", "--set", 'deep.hidden="none"')
         assert not (Deep(folder / "deep.exr").sum_up(lambda p: p["qi"] > 0, lambda p: p["A"], drop=True) > 0).any()
 
+        # Blurred lines that leave nothing of a surface leave no hole where they are taken away.
+        blur = ["--lens", "0.02", "--blur-samples", "4", "-w", "12"]
+        render(still, "-o", folder / "flat.exr", "--deep", folder / "deep.exr", "--layers", "beauty,lines,surface", *blur)
+        deep, pixels = Deep(folder / "deep.exr"), flat(folder / "flat.exr")
+        taken_away = deep.sum_up(lambda p: p["lineid"] == 0, lambda p: p["A"], drop=True)
+        covered = (pixels["surface.A"] == 1) & (pixels["lines.A"] == 1)
+        assert covered.sum() > 100 and taken_away[covered].min() > 0.999, (covered.sum(), taken_away[covered].min())
+        assert taken_away[pixels["surface.A"] == 1].min() > 0.9
+
         header = run("exrheader", folder / "deep.exr")
         assert re.search(r'type \(type string\): "deepscanline"', header), header
         assert "chunkCount" in header and "imageCounter" not in header and "worldToNDC" in header, header
