@@ -45,7 +45,7 @@ class FeatureRuns {
     /// Takes the piece if it lies on a feature.
     bool take(const LinePiece& piece) {
         const auto line = index_.find(piece);
-        if (!line) return false;
+        if (!line || is_beyond(features_[*line], 0.5 * (piece.from + piece.to))) return false;
         const std::array<double, 2>& at = chains_.positions[*line];
         const auto place = [&](glm::dvec2 p) {
             return glm::mix(at[0], at[1], WholeLineIndex::share_of(features_[*line], p));
@@ -82,6 +82,13 @@ class FeatureRuns {
     }
 
   private:
+    /// Whether a place of an edge is not on the line that is a part of it: elsewhere the edge is a seam, where lines
+    /// may be found that are none in every view.
+    static bool is_beyond(const WholeLine& line, glm::dvec2 place) {
+        const double share = WholeLineIndex::share_of(line, place);
+        return std::max(-share, share - 1) * line.length_px() > kTogetherPx;
+    }
+
     struct Placed {
         std::uint32_t chain;
         bool is_hidden;

@@ -291,13 +291,12 @@ void LineColumns::fill_chains(std::span<const LineSample> samples, const Variabl
     const auto s = [&](std::size_t i) {
         const double at = at_of(samples[i]), length = run(i).chain_length_px;
         const RunPiece& own = runs_.pieces[samples[i].piece];
-        return run(i).chain_is_closed && 0.5 * (own.at_from_px + own.at_to_px) > length ? at - length : at;
+        const bool is_beyond = run(i).chain_is_closed && 0.5 * (own.at_from_px + own.at_to_px) > length;
+        return std::clamp(is_beyond ? at - length : at, 0.0, length);
     };
     out.each(V::s, s);
     out.each(V::length, [&](std::size_t i) { return run(i).chain_length_px; });
-    out.each(V::t, [&](std::size_t i) {
-        return run(i).chain_length_px > 0 ? std::clamp(s(i) / run(i).chain_length_px, 0.0, 1.0) : 0.0;
-    });
+    out.each(V::t, [&](std::size_t i) { return run(i).chain_length_px > 0 ? s(i) / run(i).chain_length_px : 0.0; });
     out.each(V::run_s, [&](std::size_t i) { return at_of(samples[i]) - runs_.pieces[run(i).first].at_from_px; });
     out.each(V::run_length, [&](std::size_t i) { return runs_.length_px(run(i)); });
     out.each(V::end_distance, [&](std::size_t i) { return end_distance_px(runs_, run(i), at_of(samples[i])); });

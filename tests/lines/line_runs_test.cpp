@@ -141,6 +141,7 @@ TEST_P(Runs, FollowTheirLine) {
             const double length = glm::distance(p.piece.from, p.piece.to);
             EXPECT_NEAR(p.at_to_px - p.at_from_px, length, length < 1 ? 0.5 : 0.03);
             EXPECT_GE(p.at_from_px, -0.5);
+            EXPECT_LE(p.at_to_px, (run.chain_is_closed ? 2 : 1) * run.chain_length_px + 0.5);
             if (i == 0) continue;
             // Edges are sampled anew in each tile, so that parts of one overlap or gape by a part of a pixel.
             EXPECT_GT(p.at_to_px, pieces[i - 1].at_to_px - 1e-9);
@@ -151,6 +152,24 @@ TEST_P(Runs, FollowTheirLine) {
         if (run.is_closed) {
             EXPECT_LE(glm::distance(pieces.front().piece.from, pieces.back().piece.to), 0.75);
             EXPECT_NEAR(lines.runs.length_px(run), run.chain_length_px, 1);
+        }
+    }
+}
+
+// Of an edge that meets another polygon's for a part of it, only the rest is a line in every view. What is found along
+// the other part, where the two gape on a large picture, stands along itself: the engine's fins have such edges.
+TEST(RunsOfSeams, StayWithinTheirChains) {
+    const ShadedScene scene(read_scene_file(std::string(BURIN_SOURCE_FOLDER) + "/scenes/engine.toml", {}), kVisible,
+                            5760, 3240);
+    const FoundLines lines = scene.found({3500, 1200, 3700, 1420}, 2);
+    EXPECT_GT(lines.runs.runs.size(), 10u);
+    for (const LineRun& run : lines.runs.runs) {
+        if (run.chain_is_closed) continue;
+        for (const RunPiece& p : lines.runs.pieces_of(run)) {
+            // Pieces may cross the end of the part.
+            const double length = glm::distance(p.piece.from, p.piece.to);
+            EXPECT_GE(p.at_from_px, -0.5 - 0.5 * length);
+            EXPECT_LE(p.at_to_px, run.chain_length_px + 0.5 + 0.5 * length);
         }
     }
 }
