@@ -170,8 +170,7 @@ SlicePlan plan_slices(const Frame& frame, ScreenSurfaces& screen, const PixelTil
     plan.layers = cut(frame, layers, left, least);
     if (least + lasting > cap_bytes) {
         const std::uint64_t least_mb = (least + lasting + (1 << 20) - 1) >> 20;
-        throw LimitError("this picture takes at least " + std::to_string(least_mb) +
-                         "M; give that or more, or use fewer threads");
+        throw LimitError("this picture", least_mb, "use fewer threads");
     }
     return plan;
 }

@@ -25,10 +25,10 @@ namespace {
 
 using namespace option_values;
 
-/// The picture file that a command writes, and its statistics.
-void add_file_options(CLI::App& app, Texts& t) {
+/// The picture file that a command writes, or several (`takes_more`), and its statistics.
+void add_file_options(CLI::App& app, Texts& t, bool takes_more) {
     const std::string kinds = "file to write: " + suffixes_of_formats() + " (default: INPUT's name with .png)";
-    app.add_option("-o,--output", t.outputs, kinds + "; given again: one more of the same picture")
+    app.add_option("-o,--output", t.outputs, kinds + (takes_more ? "; given again: one more of the same picture" : ""))
         ->expected(1)
         ->take_all()
         ->allow_extra_args(false);
@@ -135,7 +135,7 @@ void add_method_option(CLI::App& app, Texts& t) {
 }
 
 void add_render_options(CLI::App& app, Texts& t) {
-    add_file_options(app, t);
+    add_file_options(app, t, true);
     app.add_option(
         "--layers", t.layers,
         "layers of an EXR: beauty lines Z N ids coverage surface lines_hidden line motion, lines_NAME of sets of a "
@@ -183,7 +183,7 @@ void add_farm_options(CLI::App& app, Texts& t) {
 
 void add_restyle_options(CLI::App& app, Texts& t) {
     app.add_option("INPUT", t.input, "lines that burin render --save-lines has written")->required();
-    add_file_options(app, t);
+    add_file_options(app, t, false);
     app.add_option("--style", t.style, "style sheet: a name (see burin styles), or a file .toml")->required();
     app.add_option("-w,--line-width", t.width, "the sheet's parameter `width`");
     app.add_option("--color", t.color, "the sheet's parameter `color`");

@@ -45,8 +45,7 @@ void check_ink_fits(const LineDrawing& drawing, std::uint64_t cap_bytes) {
     }
     const std::uint64_t least = pieces * kBytesPerInkedPiece;
     if (least > cap_bytes) {
-        throw LimitError("this picture takes at least " + std::to_string((least >> 20) + 1) +
-                         "M with a style sheet; give that or more, or draw fewer lines");
+        throw LimitError("this picture", (least >> 20) + 1, "draw fewer lines with its style sheet");
     }
 }
 

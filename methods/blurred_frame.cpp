@@ -106,7 +106,11 @@ class BlurredFrame {
     }
 
     void draw_frame(const Frame& frame, Film& film, const RunOptions& options) {
-        add(method_.render(frame, options, film), stats_);
+        try {
+            add(method_.render(frame, options, film), stats_);
+        } catch (const LimitError& error) {
+            throw error.times(2);  // sums take up to a half
+        }
         if (progress_ != nullptr) progress_->advance();
     }
 
@@ -136,11 +140,7 @@ class BlurredFrame {
                 frame.reset();  // it borrows the moment before
                 frame = frame_of(subs[i], rows);
             }
-            try {
-                draw_frame(*frame, film, options);
-            } catch (const LimitError& error) {
-                throw LimitError(error.what() + std::string("; a blurred one takes twice that"));
-            }
+            draw_frame(*frame, film, options);
             if (in_bands) continue;
             sums.add(film.image(), options.threads);
             if (matte_sums) matte_sums->add_all(*film.mattes(), options.threads);

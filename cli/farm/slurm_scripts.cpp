@@ -50,7 +50,12 @@ constexpr std::string_view kCollectScript = R"sh(#!/bin/sh
 #SBATCH --job-name=@job@-collect
 #SBATCH --output="@logs@/collect_%j.txt"
 cd @folder@ || exit 1
-@joins@@removal@found=$(@program@ render@arguments@ -f @frames@@outputs@ -q --skip-existing --dry-run) || exit 1
+@joins@@removal@if ! found=$(@program@ render@arguments@ -f @frames@@outputs@ -q --skip-existing --dry-run); then
+    # As where an input is gone. Which frames are made from it as it is cannot be told; a run of each will say.
+    echo "which frames are missing cannot be told, for what is said above"
+    printf 'render what is missing: %s -f %s\n' @resubmit@ @frames@
+    exit 1
+fi
 missing=$(printf '%s\n' "$found" | sed -n 's/^missing //p')
 if [ -n "$missing" ]; then
     echo "missing: $missing"

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/atomic_file.h"
+#include "base/error.h"
 #include "base/interrupt.h"
 #include "cli/job.h"
 #include "cli/output_options.h"
@@ -80,8 +81,12 @@ std::vector<double> RenderJob::missing_frames() const {
     std::vector<double> missing;
     for (const double frame : plan_.frames) {
         throw_if_interrupted();
-        std::string note;
-        if (!renderer_.is_there(frame, renderer_.fingerprint_of(frame), note)) missing.push_back(frame);
+        try {
+            std::string note;
+            if (renderer_.is_there(frame, renderer_.fingerprint_of(frame), note)) continue;
+        } catch (const InputError&) {  // an input of the frame is missing, as its run will say
+        }
+        missing.push_back(frame);
     }
     return missing;
 }

@@ -71,7 +71,8 @@ std::vector<double> parse_frame_list(std::string_view text) {
         std::string_view part = text.substr(begin, end == std::string_view::npos ? end : end - begin);
         while (part.starts_with(' ')) part.remove_prefix(1);
         while (part.ends_with(' ')) part.remove_suffix(1);
-        PartReader reader(part);
+        PartReader reader(part.empty() ? text : part);
+        if (part.empty()) reader.fail("is no list of frames, such as 1-100, 1-100x2 or 1,5,9-12");
         const std::int64_t first = reader.number();
         std::int64_t last = first, step = kPerFrame;
         if (reader.take("-") || reader.take(":") || reader.take("..")) {

@@ -149,6 +149,12 @@ bool ModelSequence::has_file(double number) const {
     return std::filesystem::exists(settings_.pattern.path_of(number), error);
 }
 
+/// Whether a number lies before the first file or behind the last one.
+bool ModelSequence::is_beyond_all(double number) const {
+    const std::vector<double> all = numbers();
+    return all.empty() || number < all.front() || number > all.back();
+}
+
 /// The file of a number that is whole.
 std::string ModelSequence::file_for(double frame, double number) const {
     const std::string path = settings_.pattern.path_of(number);
@@ -168,7 +174,7 @@ ModelSequence::Shown ModelSequence::files_of(double frame) const {
     // A shutter that is open before the first file, or behind the last one, sees that file.
     const double other = nearest == whole ? whole + 1 : whole;
     const std::string file = file_for(frame, nearest);
-    if (!settings_.holds_missing && !has_file(other)) return {file, {}, 0};
+    if (!settings_.holds_missing && !has_file(other) && is_beyond_all(other)) return {file, {}, 0};
     Shown shown{file_for(frame, whole), {}, number - whole};
     shown.later = file_for(frame, whole + 1);
     if (shown.later == shown.file) shown.later.clear();

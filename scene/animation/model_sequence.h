@@ -52,6 +52,7 @@ class ModelSequence : public ModelMotion {
     Shown files_of(double frame) const;
     std::string file_for(double frame, double number) const;
     bool has_file(double number) const;
+    bool is_beyond_all(double number) const;
     std::vector<double> numbers() const;
     Source read(const std::string& path) const;
     Model model_at(double frame, std::vector<std::string>& notes) const;

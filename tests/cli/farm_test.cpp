@@ -116,6 +116,23 @@ TEST(DryRun, ForecastsWhatRenderingTakes) {
     }
 }
 
+// What the job that collects a farm's frames asks, where an input is gone: the frame is missing, as any other.
+TEST(DryRun, FramesWithoutTheirInputAreMissing) {
+    const TemporaryFolder folder;
+    folder.write("shot.toml", "[camera]\neye = [0, 0, 4]\n[[object]]\nfile = \"walk.##.obj\"\n");
+    for (int i = 1; i <= 4; ++i)
+        folder.write("walk.0" + std::to_string(i) + ".obj",
+                     "v 0 0 0\nv 1 0 0\nv 0 " + std::to_string(i) + " 0\nf 1 2 3\n");
+    const std::vector<std::string> render = {"render", "shot.toml", "-r", "64x48", "-q",
+                                             "-o",     "o.##.png",  "-f", "1-4",   "--skip-existing"};
+    ASSERT_EQ(run_burin(folder.path(), render).status, 0);
+    std::filesystem::remove(folder.file("walk.03.obj"));
+    std::filesystem::remove(folder.file("o.04.png"));
+    const ProgramResult text = run_burin(folder.path(), joined(render, {"--dry-run"}));
+    EXPECT_EQ(text.status, 0) << text.err;
+    EXPECT_NE(text.out.find("frames 4 (2 there)\nmissing 3,4\n"), std::string::npos) << text.out;
+}
+
 TEST(DryRun, TellsFramesAndMemoryAndDrawsNothing) {
     const TemporaryFolder folder;
     folder.write("shot.toml", kShot);

@@ -222,6 +222,19 @@ TEST_F(Render, TooLittleMemoryIsRefusedWithTheLeast) {
         << least;
 }
 
+TEST_F(Render, TooLittleMemoryForABlurredPictureIsRefusedWithWhatIsEnough) {
+    const auto render = [&](const std::string& cap) {
+        return run_burin(folder_.path(), {"render", "scene.toml", "-o", "blurred.exr", "-j", "1", "--lens", "0.01",
+                                          "--blur-samples", "2", "--memory", cap});
+    };
+    const ProgramResult result = render("1M");
+    EXPECT_EQ(result.status, 1);
+    const std::string words = "scene.toml: --memory: this picture takes at least ";
+    ASSERT_EQ(result.err.find(words), 0u) << result.err;
+    const std::string least = result.err.substr(words.size(), result.err.find(';') - words.size());
+    EXPECT_EQ(render(least).status, 0) << least;
+}
+
 TEST_F(Render, LinesOfASheetCountAgainstTheCapForMemory) {
     folder_.write("fine.toml",
                   "[camera]\neye = [0, 0, 3]\nfov = 20\n[[object]]\nshape = \"sphere\"\nsegments = 400\nrings = 200\n");
@@ -237,7 +250,7 @@ TEST_F(Render, LinesOfASheetCountAgainstTheCapForMemory) {
     const std::string words = "fine.toml: --memory: this picture takes at least ";
     ASSERT_EQ(result.err.find(words), 0u) << result.err;
     EXPECT_FALSE(std::filesystem::exists(folder_.path() + "/fine.exr"));
-    const std::string least = result.err.substr(words.size(), result.err.find(' ', words.size()) - words.size());
+    const std::string least = result.err.substr(words.size(), result.err.find(';') - words.size());
     EXPECT_EQ(render(least, "wireframe").status, 0) << least;
 }
 

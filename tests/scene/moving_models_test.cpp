@@ -170,8 +170,11 @@ TEST_F(MovingModels, MissingFilesAreErrorsOrHeld) {
     EXPECT_NO_THROW(strict.animation.at(6));
     EXPECT_THROW(strict.animation.at(6.5), InputError);
     EXPECT_THROW(strict.animation.at(6.75), InputError) << "it is a moment of a frame that has no file";
-    for (const double moment : {5.75, 6.25})
-        EXPECT_EQ(vertex(scene_at(strict, moment), 0, 0).z, 6) << "a shutter that is open beyond the files";
+    for (const double moment : {6.25, 8.75})
+        EXPECT_THROW(strict.animation.at(moment), InputError)
+            << "nor may a shutter that is open into a gap hold a file";
+    EXPECT_EQ(vertex(scene_at(strict, 5.75), 0, 0).z, 6) << "a shutter that is open before the first file";
+    EXPECT_EQ(vertex(scene_at(strict, 9.25), 0, 0).z, 9) << "or behind the last one";
     AnimatedScene held = load(scene + "missing = 'hold'\n", 7);
     EXPECT_EQ(vertex(scene_at(held, 6.5), 0, 0).z, 6);
     EXPECT_EQ(vertex(scene_at(held, 8.5), 0, 0).z, 7.5);
