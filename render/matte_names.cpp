@@ -41,6 +41,7 @@ std::uint32_t crypto_id(std::string_view name) {
 }
 
 std::string matte_name(std::string_view name) {
+    if (name.empty()) return "default";
     std::string clean;
     while (!name.empty()) {
         const std::size_t length = utf8_length(name);

@@ -15,7 +15,8 @@ namespace burin {
 /// The number of a name: its hash, changed where its bits would be no ordinary float.
 std::uint32_t crypto_id(std::string_view name);
 
-/// A name without control characters and bytes that are no UTF-8, for which readers have no common answer.
+/// A name without control characters and bytes that are no UTF-8, for which readers have no common answer; "default"
+/// where there is none, for nobody can pick an empty one.
 std::string matte_name(std::string_view name);
 
 /// The names that a layer of Cryptomatte knows, by their numbers from 0.

@@ -198,6 +198,7 @@ TEST(CryptoNames, ManifestsAreSortedAndEscaped) {
               "{\"a_b_\":\"00000abc\",\"b \\\"quoted\\\"\":\"00000abc\",\"back\\\\slash\":\"00000abc\","
               "\"bad __\":\"00000abc\",\"\xC3\xA4\":\"00000abc\"}");
     EXPECT_EQ(MatteNames().manifest(), "{}");
+    EXPECT_EQ(matte_name(""), "default") << "nobody can pick an empty name";
 }
 
 TEST(CryptoNames, WarnWhereTheyAreHardToUse) {
