@@ -22,14 +22,19 @@ def limited(number):
     return min(max(float(number), 0.0), 1.0)
 
 
-def surface_node(material):
-    """The shader node at the active output, or None."""
+def output_node(material):
+    """The active output, or None."""
     for target in ("ALL", "CYCLES", "EEVEE"):
         output = material.node_tree.get_output_node(target)
         if output is not None:
-            links = output.inputs["Surface"].links
-            return links[0].from_node if links else None
+            return output
     return None
+
+
+def node_at(output, socket_name):
+    """The node that an output's socket is linked to, or None."""
+    links = output.inputs[socket_name].links if output is not None else ()
+    return links[0].from_node if links else None
 
 
 def constant(node, socket_name):
@@ -43,7 +48,11 @@ def look_of(material, notes):
     display. Adds to `notes` what was not understood."""
     color, opacity = material.diffuse_color[:3], material.diffuse_color[3]
     if material.use_nodes and material.node_tree is not None:
-        node = surface_node(material)
+        output = output_node(material)
+        for socket_name in ("Volume", "Displacement"):
+            if node_at(output, socket_name) is not None:
+                notes.add(f"material {material.name}: Burin leaves its {socket_name.lower()} out")
+        node = node_at(output, "Surface")
         name = COLOR_SOCKETS.get(node.type) if node is not None else None
         found = constant(node, name) if name else None
         if found is None:

@@ -233,6 +233,15 @@ def materials_have_one_color():
     glow.diffuse_color = (9, -1, .5, 1)  # Blender limits it, and so do we
     assert look_of(glow, notes).color == (1, 0, .5)
 
+    # What else a material has at its output is named, and its surface is drawn.
+    foggy, notes = bpy.data.materials.new("foggy"), set()
+    foggy.use_nodes = True
+    nodes, output = foggy.node_tree.nodes, foggy.node_tree.get_output_node("ALL")
+    for kind, socket in ("ShaderNodeVolumePrincipled", "Volume"), ("ShaderNodeDisplacement", "Displacement"):
+        foggy.node_tree.links.new(nodes.new(kind).outputs[0], output.inputs[socket])
+    look_of(foggy, notes)
+    assert notes == {f"material foggy: Burin leaves its {what} out" for what in ("volume", "displacement")}, notes
+
 
 def faces_have_the_material_of_their_slot():
     scene = new_scene()
