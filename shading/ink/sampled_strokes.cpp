@@ -109,7 +109,8 @@ bool halve(const LineColumns& lines, std::span<const ChainValues> chains, Stroke
 }
 
 /// Directions to the right of a run's way, at both ends of one of its pieces: in the middle between those of pieces
-/// that meet, and longer where these turn, so that a moved line keeps its distance.
+/// that meet, and longer where these turn, so that a moved line keeps its distance. A short piece runs as the run does
+/// around it: where lines were found from one sample to the next, hairs of them run anywhere.
 class Across {
   public:
     explicit Across(const LineRuns& runs) : runs_(runs) {}
@@ -119,24 +120,34 @@ class Across {
     }
 
   private:
-    glm::dvec2 right_of(std::size_t piece) const {
-        const LinePiece& p = runs_.pieces[piece].piece;
-        const glm::dvec2 way = p.to - p.from;
+    /// The piece before or behind one in its run, or the same at an end.
+    static std::size_t beside(const LineRun& run, std::size_t piece, bool is_behind) {
+        const std::size_t last = run.first + run.count - 1;
+        if (is_behind) return piece < last ? piece + 1 : run.is_closed ? run.first : piece;
+        return piece > run.first ? piece - 1 : run.is_closed ? last : piece;
+    }
+    glm::dvec2 right_of(const LineRun& run, std::size_t piece) const {
+        constexpr double kSteadyPx = 1.5;
+        constexpr int kMostPieces = 32;
+        const LinePiece& own = runs_.pieces[piece].piece;
+        glm::dvec2 from = own.from, to = own.to;
+        std::size_t first = piece, last = piece;
+        for (int i = 0; i < kMostPieces && glm::distance(from, to) < kSteadyPx; ++i) {
+            const std::size_t before = beside(run, first, false), behind = beside(run, last, true);
+            if (before == first && behind == last) break;
+            from = runs_.pieces[first = before].piece.from;
+            to = runs_.pieces[last = behind].piece.to;
+        }
+        const glm::dvec2 way = from != to ? to - from : own.to - own.from;
         const double length = std::max(glm::length(way), 1e-300);
         return {-way.y / length, way.x / length};
     }
     glm::dvec2 joint(std::uint32_t run_number, std::size_t piece, bool is_end) const {
         const LineRun& run = runs_.runs[run_number];
-        const std::size_t last = run.first + run.count - 1;
-        std::size_t other = piece;
-        if (is_end) {
-            other = piece < last ? piece + 1 : run.is_closed ? run.first : piece;
-        } else {
-            other = piece > run.first ? piece - 1 : run.is_closed ? last : piece;
-        }
-        const glm::dvec2 own = right_of(piece);
+        const std::size_t other = beside(run, piece, is_end);
+        const glm::dvec2 own = right_of(run, piece);
         if (other == piece) return own;
-        const glm::dvec2 sum = own + right_of(other);
+        const glm::dvec2 sum = own + right_of(run, other);
         const double square = glm::dot(sum, sum);
         constexpr double kMostLonger = 2;
         if (square < 4 / (kMostLonger * kMostLonger)) return square > 0 ? sum * (kMostLonger / std::sqrt(square)) : own;
