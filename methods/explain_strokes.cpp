@@ -77,12 +77,12 @@ class StrokeExplainer {
         std::vector<ExplainedStroke> strokes;
         std::vector<std::size_t> drawn;
         double before = 0;
-        for (const std::size_t i : near_) {
-            const double covers = ink_of({i});
+        for (const std::vector<std::size_t>& parts : near_strokes()) {
+            const double covers = ink_of(parts);
             if (covers == 0) continue;
-            drawn.push_back(i);
+            drawn.insert(drawn.end(), parts.begin(), parts.end());
             const double all = ink_of(drawn);
-            strokes.push_back(explained(inked_.strokes[i]));
+            strokes.push_back(explained(inked_.strokes[parts.front()]));
             strokes.back().covers = covers;
             strokes.back().shows = std::max(all - before, 0.0);
             before = all;
@@ -97,6 +97,24 @@ class StrokeExplainer {
         return all;
     }
     glm::dvec2 middle() const { return {x_ + 0.5, y_ + 0.5}; }
+
+    /// The parts of each stroke that are near, as its dashes are; the strokes in the order of their uppermost parts.
+    std::vector<std::vector<std::size_t>> near_strokes() const {
+        std::vector<std::vector<std::size_t>> strokes;
+        for (const std::size_t i : near_) {
+            const auto is_same = [&](const std::vector<std::size_t>& parts) {
+                const InkStroke &a = inked_.strokes[parts.front()], &b = inked_.strokes[i];
+                return a.chain == b.chain && a.order == b.order;
+            };
+            const auto known = std::find_if(strokes.begin(), strokes.end(), is_same);
+            if (known != strokes.end()) {
+                known->push_back(i);
+            } else {
+                strokes.push_back({i});
+            }
+        }
+        return strokes;
+    }
 
     bool reaches(const InkStroke& stroke) const {
         const auto points = inked_.points_of(stroke);

@@ -256,5 +256,18 @@ TEST(Commands, AReaderThatGoesAwayIsNoFaultOfAListing) {
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.exr", "cube.obj"}));
 }
 
+/// At an edge of the engine that is a border and a silhouette by turns, one stroke has several parts.
+TEST(Explain, NamesEachStrokeOnce) {
+    const TemporaryFolder folder;
+    folder.write("s.toml",
+                 "[[set]]\nname = \"a\"\nclasses = [\"silhouette\", \"border\"]\nstyle = \"ink\"\n"
+                 "[style.ink]\nwidth = \"=4 + t\"\n");
+    const ProgramResult result =
+        run_burin(folder.path(), {"explain", std::string(BURIN_SOURCE_FOLDER) + "/scenes/engine.toml", "--style",
+                                  "./s.toml", "--pixel", "1823,680", "--json"});
+    const Json strokes = Json::parse(result.out)["strokes"];
+    EXPECT_EQ(strokes.size(), 1u) << result.out;
+}
+
 }  // namespace
 }  // namespace burin::test::commands_test
