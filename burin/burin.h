@@ -168,7 +168,7 @@ typedef struct burin_view {
                                 has all of the scene in view if there is none */
     double camera_to_world[16]; /**< the camera's x is to the right, y up, and it looks along -z; a rotation and a
                                      position, exact to single precision; all 0: one of the scene's cameras */
-    double fov_deg;             /**< with a matrix: vertical field of view, between 0 and 180; 0: 35 */
+    double fov_deg;             /**< with a matrix: vertical field of view, between 0 and 180; 0: 35, or ortho_height */
     double ortho_height;        /**< with a matrix: visible height in world units, orthographic; 0: perspective */
     double shift[2];     /**< with a matrix: the lens is shifted, so that the picture shows what is so much farther
                               to the right and up, in heights of the picture, -100 to 100 */

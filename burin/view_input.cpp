@@ -63,6 +63,8 @@ CameraSettings camera_of_matrix(const burin_view& view) {
     if (!(view.fov_deg >= 0 && view.fov_deg < 180)) {
         throw UsageError("view.fov_deg: must be from 0, for 35, to less than 180, got " + number_text(view.fov_deg));
     }
+    if (view.fov_deg > 0 && view.ortho_height > 0)
+        throw UsageError("view.fov_deg and view.ortho_height: give one of them, and 0 for the other");
     camera.orthographic = view.ortho_height > 0;
     if (camera.orthographic) camera.height = view.ortho_height;
     if (view.fov_deg > 0) camera.fov_deg = view.fov_deg;

@@ -15,7 +15,8 @@ std::string note_on_missing_marks(const Frame& frame);
 std::string note_on_unread_keys(const std::vector<std::string>& keys);
 /// What is said where scene and sheet have [surfaces].
 constexpr const char* kSheetSurfacesAreUnread =
-    "the scene's own [surfaces] stay; those of the style sheet change nothing";
+    "the scene's own [surfaces] stay; those of the style sheet change nothing; take them out of the scene to have the "
+    "sheet's";
 /// A blur that the scene has, and that `who` ("burin explain") does not draw.
 std::string note_on_missing_blur(bool has_shutter, const Camera& camera, const std::string& who);
 /// What a picture of a scene is that the camera does not look at.

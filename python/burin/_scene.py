@@ -266,6 +266,8 @@ class Scene:
             raise UsageError("shift: must be two numbers")
         if (fov or ortho) and matrix is None and eye is None:
             raise UsageError("fov and ortho: need eye or matrix")
+        if fov and ortho:
+            raise UsageError("fov and ortho: give one of them")
         to_world = _arrays.matrix("matrix", matrix)
         if eye is not None:
             to_world = _looking(_vector("eye", eye), self._target(target), _vector("up", up))
@@ -311,8 +313,8 @@ def draw(
     """Draws a mesh, a file or a Scene, whose settings it changes.
 
     lines: classes of lines; width: of strokes, in pixels; crease_angle: in degrees; hidden: "none", "solid" or
-    "dashed"; style: a style sheet instead of these; background: "#rrggbb" or "transparent". All else as for
-    Scene.render().
+    "dashed"; style: a style sheet, which takes the place of lines and hidden, and whose parameter width then is;
+    background: "#rrggbb" or "transparent". All else as for Scene.render().
     """
     if isinstance(mesh, Scene):
         scene = mesh
@@ -321,7 +323,13 @@ def draw(
     else:
         scene = Scene(mesh)
     if style is not None:
+        for name, given in ("lines", lines), ("hidden", hidden):
+            if given is not None:
+                raise UsageError(f"{name}: a style sheet says itself which lines are drawn and how; give one of both")
         scene.set_style(style)
+        if width is not None:
+            scene.set(f"style.width={width}")
+            width = None
     looks = {"draw": lines, "width": width, "crease_angle": crease_angle}
     for key, value in looks.items():
         if value is not None:

@@ -204,6 +204,9 @@ def test_bad_meshes_are_named(mesh, error, message):
         ({"shift": (1, 2, 3)}, "shift: must be two numbers"),
         ({"shift": (1, 0)}, "shift"),
         ({"eye": (3, 3, 3), "fov": float("nan")}, "fov"),
+        ({"eye": (3, 3, 3), "fov": 30, "ortho": 3}, "fov and ortho: give one of them"),
+        ({"style": "pencil", "lines": "crease"}, "lines: a style sheet says itself"),
+        ({"style": "pencil", "hidden": "solid"}, "hidden: a style sheet says itself"),
         ({"matrix": np.eye(3)}, "matrix: must be a matrix"),
         ({"matrix": 2 * np.eye(4)}, "camera_to_world"),
         ({"camera": "main", "matrix": np.eye(4)}, "give one of them"),
@@ -218,6 +221,14 @@ def test_bad_meshes_are_named(mesh, error, message):
 def test_bad_options_are_named(options, message):
     with pytest.raises(ValueError, match=message):
         burin.draw((POINTS, QUADS), **{"size": SIZE, **options})
+
+
+def test_width_beside_a_style_is_its_parameter():
+    scene = burin.Scene((POINTS, QUADS))
+    scene.set_style("pencil")
+    scene.set("style.width=7")
+    wide = burin.draw((POINTS, QUADS), size=SIZE, style="pencil", width=7)
+    assert wide.png() == scene.render(SIZE).png() != burin.draw((POINTS, QUADS), size=SIZE, style="pencil").png()
 
 
 def test_lines_are_arrays():

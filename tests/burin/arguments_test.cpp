@@ -113,6 +113,8 @@ TEST(Arguments, EveryNumberOfAViewIsChecked) {
                            "camera_to_world");
     }
     expect_refused([](burin_view& v) { v.fov_deg = 180; }, "fov_deg");
+    expect_refused([](burin_view& v) { v.fov_deg = 30, v.ortho_height = 3; },
+                   "fov_deg and view.ortho_height: give one of them");
     expect_refused(
         [](burin_view& v) {
             std::fill_n(v.camera_to_world, 16, 0.0);

@@ -184,7 +184,8 @@ TEST_F(Styles, SayThatSurfacesOfTheSceneStay) {
     folder_.write("lambert.toml", "[surfaces]\nshading = \"lambert\"\n[[object]]\nfile = \"cube.obj\"\n");
     folder_.write("both.toml", "style = \"flat.toml\"\n" + read_file(folder_.file("lambert.toml")));
     EXPECT_EQ(render({"--style", "flat.toml"}, "lambert.toml").err,
-              "burin: note: the scene's own [surfaces] stay; those of the style sheet change nothing\n");
+              "burin: note: the scene's own [surfaces] stay; those of the style sheet change nothing; take them "
+              "out of the scene to have the sheet's\n");
     EXPECT_EQ(read_file(folder_.file("out.exr")), picture({"--style", "mine.toml"}, "lambert.toml"));
     EXPECT_EQ(render({"--style", "flat.toml", "-q"}, "lambert.toml").err, "");
     EXPECT_NE(picture({"--style", "flat.toml"}), picture({"--style", "mine.toml"}));
