@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/farm/memory_forecast.h"
@@ -82,6 +83,9 @@ FarmJob farm_job(RenderJob& job, const Arguments& a, const std::vector<double>& 
     }
     farm.program = path_of_program();
     farm.folder = std::filesystem::current_path().string();
+    if (!missing.empty()) {
+        for (const FrameFile& file : files) check_output_file(file.path_of(missing.front()));
+    }
     const std::filesystem::path folder = std::filesystem::absolute(files.front().path).parent_path();
     farm.log_folder = (folder / "burin-logs").string();
     if (farm.log_folder.find_first_of("\"\\\n") != std::string::npos)

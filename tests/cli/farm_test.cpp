@@ -220,6 +220,10 @@ TEST(Submit, FoldersOfJobsThatAreNotTakenAreNotLeft) {
     const std::vector<std::string> before = folder.names();
     EXPECT_EQ(run_burin(folder.path(), submit).status, 1);
     EXPECT_EQ(folder.names(), before);
+    const ProgramResult nowhere =
+        run_burin(folder.path(), {"submit", "shot.toml", "-r", "64x48", "-o", "shots/o.##.exr", "-f", "1-3"});
+    EXPECT_NE(nowhere.err.find("shots does not exist; create it first"), std::string::npos) << nowhere.err;
+    EXPECT_EQ(folder.names(), before) << "a name that is mistyped makes no folder";
     // One that was there stays, and so does that of a job that was taken.
     std::filesystem::create_directory(folder.file("burin-logs"));
     EXPECT_EQ(run_burin(folder.path(), submit).status, 1);
