@@ -46,6 +46,7 @@ def checked(result):
     """The result of a call that did not fail; else raises what the library says."""
     if result is None or (isinstance(result, int) and result < 0):
         text = (burin().burin_error() or b"").decode(errors="replace")
+        text = text.replace("options.memory_bytes:", "Memory Cap:")  # as the panel calls it
         raise (Stopped if burin().burin_error_kind() == interface.STOPPED else BurinError)(text)
     return result
 

@@ -316,6 +316,7 @@ def what_cannot_be_drawn_is_an_error():
                           ("scene.camera.scale = (0, 1, 1)", "camera camera is skewed or flattened"),
                           ("scene.camera.scale = (-1, 1, 1)", "mirrored"),
                           ("scene.camera.location.x = float('nan')", "camera_to_world"),
+                          ("scene.burin.memory_mb, scene.render.resolution_x = 1, 9000", "Memory Cap: this picture"),
                           ("scene.camera.parent, scene.objects['cube'].scale = scene.objects['cube'], (1, 1, 3)",
                            "camera camera is skewed or flattened")):
         scene = new_scene()
