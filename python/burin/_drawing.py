@@ -16,6 +16,12 @@ Array = npt.NDArray[Any]
 
 _ORDER = "RGBAXYZ"
 
+VECTOR_FORMATS = ("svg", "pdf", "dxf")
+
+
+def _suffix(path: str) -> str:
+    return os.path.splitext(path)[1].lstrip(".").lower()
+
 
 class Picture:
     """Pixels in layers. numpy.asarray(picture) is what a display shows: (height, width, 3) bytes, sRGB."""
@@ -94,15 +100,20 @@ class Picture:
         return self._core.notes()
 
     def encode(self, format: str) -> bytes:
-        """The bytes of a file: "png", "png16", "exr", "tif", "tif16"."""
-        return self._core.encode(format)
+        """The bytes of a file: "png", "png16", "exr", "tif", "tif16", and "svg", "pdf", "dxf", which its drawing
+        makes."""
+        return self.drawing.encode(format) if format in VECTOR_FORMATS else self._core.encode(format)
 
     def png(self) -> bytes:
         return self.encode("png")
 
     def save(self, path: PathLike) -> None:
-        """Into a file, whose suffix says the format."""
-        self._core.write(_arrays.path(path))
+        """Into a file, whose suffix says the format; paths are made by its drawing."""
+        path = _arrays.path(path)
+        if _suffix(path) in VECTOR_FORMATS:
+            self.drawing.save(path)
+        else:
+            self._core.write(path)
 
     def _repr_png_(self) -> bytes:
         return self.png()
@@ -166,7 +177,7 @@ class Drawing:
     def save(self, path: PathLike, style: Optional[str] = None) -> None:
         """Into a file, whose suffix says the format."""
         path = _arrays.path(path)
-        self._written(os.path.splitext(path)[1].lstrip(".").lower(), style).write(path, style)
+        self._written(_suffix(path), style).write(path, style)
         self._notes = _core.file_notes()
 
     @property
@@ -176,7 +187,7 @@ class Drawing:
 
     def _written(self, format: str, style: Optional[str]) -> _core.Drawing:
         """What a file is made of: paths need lines that a style sheet asked for, or the scene's look as one."""
-        if format not in ("svg", "pdf", "dxf") or style is not None or self._find_for_paths is None:
+        if format not in VECTOR_FORMATS or style is not None or self._find_for_paths is None:
             return self._core
         if self._for_paths is None:
             self._for_paths = self._find_for_paths()

@@ -262,7 +262,9 @@ class Scene:
             raise UsageError("camera, matrix and eye: give one of them")
         if eye is None and target is not None:
             raise UsageError("target: needs eye")
-        if len(shift) != 2:
+        if size is not None and np.shape(size) != (2,):
+            raise UsageError("size: must be two numbers, width and height")
+        if np.shape(shift) != (2,):
             raise UsageError("shift: must be two numbers")
         if (fov or ortho) and matrix is None and eye is None:
             raise UsageError("fov and ortho: need eye or matrix")

@@ -193,6 +193,7 @@ def test_bad_meshes_are_named(mesh, error, message):
     "options, message",
     [
         ({"size": (0, 3)}, "width and view.height"),
+        ({"size": 3}, "size: must be two numbers"),
         ({"size": (99999, 3)}, "65535"),
         ({"eye": (0, 0, 0), "target": (0, 0, 0)}, "are one place"),
         ({"eye": (0, 5, 0), "up": (0, 1, 0), "target": (0, 0, 0)}, "up: is zero, or along"),
@@ -221,6 +222,16 @@ def test_bad_meshes_are_named(mesh, error, message):
 def test_bad_options_are_named(options, message):
     with pytest.raises(ValueError, match=message):
         burin.draw((POINTS, QUADS), **{"size": SIZE, **options})
+
+
+def test_pictures_save_paths_as_their_drawing_does(tmp_path):
+    picture = burin.draw((POINTS, QUADS), size=SIZE)
+    for format in "svg", "pdf", "dxf":
+        picture.save(tmp_path / f"a.{format}")
+        picture.drawing.save(tmp_path / f"b.{format}")
+        saved = (tmp_path / f"a.{format}").read_bytes()
+        assert saved == (tmp_path / f"b.{format}").read_bytes()
+        assert format == "pdf" or saved == picture.encode(format)
 
 
 def test_width_beside_a_style_is_its_parameter():
