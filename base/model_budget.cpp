@@ -33,9 +33,9 @@ void ModelBudget::add(std::uint64_t bytes, const std::string& what) {
     const std::uint64_t sum = saturating_sum(counted_bytes_, bytes);
     if (sum > limit_bytes_) {
         const std::uint64_t needed = std::max(sum, foreseen_bytes_);
-        const std::string all = needed == bytes ? ""
+        const std::string all = size_text(needed) == size_text(bytes) ? ""
                                 : needed == sum ? ", with what was counted before " + size_text(needed)
-                                                : ", all of them together " + size_text(needed);
+                                                : ", all of its kind together " + size_text(needed);
         const std::string option(option_);
         throw InputError(what + " needs about " + size_text(bytes) + all + ", more than the " +
                          size_text(limit_bytes_) + " that " +

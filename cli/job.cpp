@@ -215,6 +215,7 @@ LoadedInput load_input(DescribedInput input, const Arguments& a, const std::vect
                               .lists_animations = a.command == Command::info};
     AnimatedScene animated = load_animated_scene(std::move(description), options, &loaded.files);
     refuse_to_overwrite(outputs, loaded.files);
+    refuse_to_overwrite(outputs, animated.pictures);
     loaded.animation = std::move(animated.animation);
     Scene& scene = loaded.scene = std::move(animated.scene);
     if (!a.quiet && a.command != Command::info) {  // which prints them with the rest

@@ -122,8 +122,7 @@ Model model_of(const std::string& path, GltfScene scene, const MeshOptions& opti
     }
     model.materials = std::move(scene.materials);
     model.skipped_primitives = scene.skipped_primitives;
-    model.other_files = std::move(scene.buffer_files);
-    model.other_files.insert(model.other_files.end(), scene.picture_files.begin(), scene.picture_files.end());
+    model.other_files = {std::move(scene.buffer_files), std::move(scene.picture_files)};
     add_notes(path, scene.notes, model);
     return model;
 }
@@ -183,7 +182,7 @@ Model make_model(ModelSource source, const MeshOptions& options) {
     const std::string path = source.path;
     Model model =
         std::visit([&](auto& content) { return model_of(path, std::move(content), options); }, source.content);
-    model.other_files.insert(model.other_files.end(), source.other_files.begin(), source.other_files.end());
+    if (!source.other_files.read.empty()) model.other_files = std::move(source.other_files);
     const bool has_any = std::any_of(model.objects.begin(), model.objects.end(), [&](const auto& o) {
         const Mesh& mesh = model.meshes[o.mesh];
         return !mesh.triangles.empty() || !mesh.loose_edges.empty();

@@ -9,6 +9,7 @@
 #include "mesh/animation_choice.h"
 #include "mesh/build_meshes.h"
 #include "mesh/mesh.h"
+#include "mesh/other_files.h"
 #include "mesh/polygon_soup.h"
 
 // A model is what a file or a shape gives to a scene: meshes, objects, materials, cameras, and notes about how it was
@@ -43,8 +44,8 @@ struct Model {
     std::uint64_t skipped_primitives = 0;   ///< of a glTF: points, and what has no positions
     std::uint64_t non_finite_polygons = 0;  ///< left out, of an STL
     std::vector<std::string> notes;  ///< what the user should know of how the file was read: "path: what", a line each
-    std::vector<std::string> attribute_names;   ///< of the values at vertices that have names, if any were asked for
-    std::vector<std::string> other_files;       ///< beside the model's own: materials, buffers, textures (not read)
+    std::vector<std::string> attribute_names;  ///< of the values at vertices that have names, if any were asked for
+    OtherFiles other_files;
     std::shared_ptr<const ModelPlayer> player;  ///< how it moves; nullptr: it does not, or nobody asks
     std::vector<AnimationSummary> animations;   ///< of the file, if they were asked for
 };

@@ -18,7 +18,7 @@ namespace burin {
 struct ModelSource {
     std::string path;
     std::variant<PolygonSoup, GltfScene> content;
-    std::vector<std::string> other_files;  ///< beside the model's own, but for those of glTF
+    OtherFiles other_files;  ///< but for those of glTF
 };
 
 /// Reads a file of the format that its extension says. Throws InputError.

@@ -108,7 +108,7 @@ void read_material_file(const std::string& path, MaterialLibrary& library, Misun
 /// Reads the material files of an OBJ, each once, by whatever names it is called.
 class MaterialFiles {
   public:
-    MaterialFiles(const std::string& obj_path, std::vector<std::string>* files) : obj_path_(obj_path), files_(files) {
+    MaterialFiles(const std::string& obj_path, OtherFiles* files) : obj_path_(obj_path), files_(files) {
         folder_ = std::filesystem::path(obj_path).parent_path().string();
         if (folder_.empty()) folder_ = ".";
         if (const auto obj = file_at(obj_path)) outcomes_[*obj] = false;
@@ -160,7 +160,7 @@ class MaterialFiles {
     }
     bool read_file(const std::string& path) {
         if (path.empty()) return false;
-        if (files_ != nullptr) files_->push_back(path);
+        if (files_ != nullptr) files_->read.push_back(path);
         try {
             std::set<std::string> textures;
             read_material_file(path, library_, misunderstood_, textures);
@@ -178,12 +178,12 @@ class MaterialFiles {
         for (std::string name : textures) {
             if (name.empty() || name.find('\0') != std::string::npos) continue;
             std::replace(name.begin(), name.end(), '\\', '/');  // as it is written on Windows
-            files_->push_back((folder / name).string());
+            files_->pictures.push_back((folder / name).string());
         }
     }
 
     const std::string& obj_path_;
-    std::vector<std::string>* files_;
+    OtherFiles* files_;
     std::string folder_;
     MaterialLibrary library_;
     Misunderstood misunderstood_;
@@ -196,7 +196,7 @@ class MaterialFiles {
 }  // namespace
 
 MaterialLibrary read_material_files(const std::string& obj_path, const std::vector<std::string>& file_names,
-                                    std::vector<std::string>* other_files, std::vector<std::string>* notes) {
+                                    OtherFiles* other_files, std::vector<std::string>* notes) {
     MaterialFiles files(obj_path, other_files);
     std::size_t unread = 0;
     std::string first_unread;

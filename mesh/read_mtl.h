@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/other_files.h"
 #include "mesh/polygon_soup.h"
 
 // An OBJ names material files, from which colours and opacities are read.
@@ -17,11 +18,11 @@ namespace burin {
 /// `file_names` is what stands behind each `mtllib`: a name, perhaps with blanks in it, or several.
 /// Only files in the OBJ's own folder or below are read, each once, and not the OBJ itself. A file
 /// that is missing or broken is left out: materials then keep the default colour, and the lines are
-/// the same. `other_files`: gets the paths of those that are there, and of textures that they name, which may be
-/// missing. `notes`: gets what is not read or not understood, a line each with the count.
+/// the same. `other_files`: gets the paths of those that are there, and of textures that they name. `notes`: gets what
+/// is not read or not understood, a line each with the count.
 std::map<std::string, Material, std::less<>> read_material_files(const std::string& obj_path,
                                                                  const std::vector<std::string>& file_names,
-                                                                 std::vector<std::string>* other_files = nullptr,
+                                                                 OtherFiles* other_files = nullptr,
                                                                  std::vector<std::string>* notes = nullptr);
 
 }  // namespace burin

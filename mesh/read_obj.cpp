@@ -41,7 +41,7 @@ void check(const std::string& path, const ObjPart& file) {
     }
 }
 
-PolygonSoup finished(const std::string& path, ObjPart file, std::vector<std::string>* material_files) {
+PolygonSoup finished(const std::string& path, ObjPart file, OtherFiles* other_files) {
     PolygonSoup soup = std::move(file.soup);
     const bool has_objects = file.objects.names().size() > 1;
     const NameUses& objects = has_objects ? file.objects : file.groups;
@@ -50,7 +50,7 @@ PolygonSoup finished(const std::string& path, ObjPart file, std::vector<std::str
     soup.polygon_material = file.materials.per_polygon(soup.polygon_ends.size());
     soup.object_names = objects.names();
     soup.object_names[0] = std::filesystem::path(path).stem().string();
-    const auto library = read_material_files(path, file.material_files, material_files, &soup.notes);
+    const auto library = read_material_files(path, file.material_files, other_files, &soup.notes);
     const auto note = [&](std::uint64_t count, const char* what) {
         if (count > 0) soup.notes.push_back(std::string(what) + " left out: " + std::to_string(count));
     };
@@ -75,23 +75,22 @@ PolygonSoup finished(const std::string& path, ObjPart file, std::vector<std::str
 }  // namespace
 
 PolygonSoup read_obj_text(const std::string& path, std::string_view text, int threads, std::size_t piece_size,
-                          std::vector<std::string>* material_files, const AttributeWish& attributes) {
+                          OtherFiles* other_files, const AttributeWish& attributes) {
     if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
         throw InputError(path + ": the text is UTF-16; save it as UTF-8 or ASCII");
     }
     ObjPart file = parse(path, without_byte_order_mark(text), threads, piece_size, attributes);
     check(path, file);
-    return finished(path, std::move(file), material_files);
+    return finished(path, std::move(file), other_files);
 }
 
-PolygonSoup read_obj(const std::string& path, int threads, std::vector<std::string>* material_files,
-                     const AttributeWish& attributes) {
+PolygonSoup read_obj(const std::string& path, int threads, OtherFiles* other_files, const AttributeWish& attributes) {
     const MappedFile file(path);
     const std::string_view text = file.bytes();
     const auto workers = static_cast<std::size_t>(resolve_thread_count(threads));
     // Threads pay for themselves where there is enough to read.
     const std::size_t size = std::clamp<std::size_t>(text.size() / (8 * workers), 1 << 18, 1 << 20);
-    return read_obj_text(path, text, threads, workers == 1 ? text.size() : size, material_files, attributes);
+    return read_obj_text(path, text, threads, workers == 1 ? text.size() : size, other_files, attributes);
 }
 
 }  // namespace burin

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "mesh/other_files.h"
 #include "mesh/polygon_soup.h"
 
 // Each format has a reader, which takes the path of a file and returns its polygons as they stand there.
@@ -27,13 +28,13 @@ namespace burin {
 /// skipped; lines that
 /// begin with a word that OBJ does not have are noted. Colours and opacities come from the `mtllib` files that lie in
 /// the model's folder or below. Read on `threads` threads (0 = all cores), which changes nothing else.
-/// `material_files`: gets the paths of those that were read.
+/// `other_files`: gets the paths of those, and of textures that they name.
 /// `attributes`: what to keep of texture coordinates and of colours behind the coordinates of vertices.
-PolygonSoup read_obj(const std::string& path, int threads = 1, std::vector<std::string>* material_files = nullptr,
+PolygonSoup read_obj(const std::string& path, int threads = 1, OtherFiles* other_files = nullptr,
                      const AttributeWish& attributes = {});
 /// Reads the text of an OBJ file, in pieces of at least `piece_size` bytes, which changes nothing either.
 PolygonSoup read_obj_text(const std::string& path, std::string_view text, int threads, std::size_t piece_size,
-                          std::vector<std::string>* material_files = nullptr, const AttributeWish& attributes = {});
+                          OtherFiles* other_files = nullptr, const AttributeWish& attributes = {});
 
 /// PLY: ASCII and both binary byte orders, polygons and triangle strips, all number types.
 /// `element edge` marks edges, or draws lines; other elements and properties are skipped. Plain ASCII is read on

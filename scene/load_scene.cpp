@@ -103,7 +103,7 @@ class SceneLoader {
         draw_lines_without_polygons(scene_);
         for (std::string& note : notes_on_missing_attributes(scene_, attribute_readers_, attribute_names_))
             scene_.notes.push_back(std::move(note));
-        return {std::move(scene_), std::move(animation_)};
+        return {std::move(scene_), std::move(animation_), std::move(pictures_)};
     }
 
   private:
@@ -284,8 +284,9 @@ class SceneLoader {
         if (!model.animations.empty()) animation_.file_animations.push_back({object.file, std::move(model.animations)});
         if (files_read_ != nullptr) {
             if (!pattern) files_read_->push_back(object.file);
-            files_read_->insert(files_read_->end(), model.other_files.begin(), model.other_files.end());
+            files_read_->insert(files_read_->end(), model.other_files.read.begin(), model.other_files.read.end());
         }
+        pictures_.insert(pictures_.end(), model.other_files.pictures.begin(), model.other_files.pictures.end());
         for (std::size_t i = 0; i < model.cameras.size(); ++i) {
             const ModelCamera& c = model.cameras[i];
             CameraSettings camera;
@@ -391,6 +392,7 @@ class SceneLoader {
     std::optional<double> first_frame_;
     bool lists_animations_;
     std::vector<std::string>* files_read_;  // nullptr: nobody asks
+    std::vector<std::string> pictures_;     // that models name
     Scene scene_;
     std::map<std::string, std::uint32_t, std::less<>> material_numbers_;  // of those of the scene file
     std::map<std::tuple<std::string, int, SubdivisionScheme, AnimationChoice, double, bool>,

@@ -112,6 +112,7 @@ Scene load_scene(SceneDescription description, const LoadOptions& options = {},
 struct AnimatedScene {
     Scene scene;
     SceneAnimation animation;
+    std::vector<std::string> pictures;  ///< paths that models name as textures: not read, and perhaps missing
 };
 /// The same with what moves.
 AnimatedScene load_animated_scene(SceneDescription description, const LoadOptions& options = {},

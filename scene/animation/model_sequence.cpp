@@ -174,7 +174,8 @@ ModelSequence::Shown ModelSequence::files_of(double frame) const {
     // A shutter that is open before the first file, or behind the last one, sees that file.
     const double other = nearest == whole ? whole + 1 : whole;
     const std::string file = file_for(frame, nearest);
-    if (!settings_.holds_missing && !has_file(other) && is_beyond_all(other)) return {file, {}, 0};
+    if (!settings_.holds_missing && !has_file(other))
+        return {file, {}, 0, is_beyond_all(other) ? std::nullopt : std::optional(other)};
     Shown shown{file_for(frame, whole), {}, number - whole};
     shown.later = file_for(frame, whole + 1);
     if (shown.later == shown.file) shown.later.clear();
@@ -202,6 +203,10 @@ ModelSequence::Source ModelSequence::read(const std::string& path) const {
 Model ModelSequence::model_at(double frame, std::vector<std::string>& notes) const {
     const Shown shown = files_of(frame);
     const Source source = read(shown.file);
+    if (shown.missing) {
+        notes.push_back(settings_.pattern.path_of(*shown.missing) +
+                        ": no such file; at moments beside it the nearer file is held");
+    }
     std::optional<ModelSource> model;
     if (!shown.later.empty()) {
         model = between(*source, *read(shown.later), shown.part);

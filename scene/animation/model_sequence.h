@@ -48,6 +48,7 @@ class ModelSequence : public ModelMotion {
     struct Shown {
         std::string file, later;  ///< a second one, if it is between two
         double part = 0;
+        std::optional<double> missing = std::nullopt;  ///< the number of a file that would be the second one
     };
     Shown files_of(double frame) const;
     std::string file_for(double frame, double number) const;

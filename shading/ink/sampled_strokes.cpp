@@ -109,8 +109,8 @@ bool halve(const LineColumns& lines, std::span<const ChainValues> chains, Stroke
 }
 
 /// Directions to the right of a run's way, at both ends of one of its pieces: in the middle between those of pieces
-/// that meet, and longer where these turn, so that a moved line keeps its distance. A short piece runs as the run does
-/// around it: where lines were found from one sample to the next, hairs of them run anywhere.
+/// that meet, and longer where these turn, so that a moved line keeps its distance. Hairs between pieces do not count:
+/// where lines were found from one sample to the next, they run anywhere.
 class Across {
   public:
     explicit Across(const LineRuns& runs) : runs_(runs) {}
@@ -126,31 +126,37 @@ class Across {
         if (is_behind) return piece < last ? piece + 1 : run.is_closed ? run.first : piece;
         return piece > run.first ? piece - 1 : run.is_closed ? last : piece;
     }
-    glm::dvec2 right_of(const LineRun& run, std::size_t piece) const {
-        constexpr double kSteadyPx = 1.5;
-        constexpr int kMostPieces = 32;
-        const LinePiece& own = runs_.pieces[piece].piece;
-        glm::dvec2 from = own.from, to = own.to;
-        std::size_t first = piece, last = piece;
-        for (int i = 0; i < kMostPieces && glm::distance(from, to) < kSteadyPx; ++i) {
-            const std::size_t before = beside(run, first, false), behind = beside(run, last, true);
-            if (before == first && behind == last) break;
-            from = runs_.pieces[first = before].piece.from;
-            to = runs_.pieces[last = behind].piece.to;
+    /// The first piece that is no hair, from one on to one side; that one if there is none.
+    std::size_t first_seen(const LineRun& run, std::size_t piece, bool is_behind) const {
+        constexpr double kHairPx = 1.0 / 32;
+        constexpr int kMostHairs = 64;
+        std::size_t at = piece;
+        for (int i = 0; i < kMostHairs; ++i) {
+            const LinePiece& p = runs_.pieces[at].piece;
+            if (glm::distance(p.from, p.to) >= kHairPx) return at;
+            const std::size_t next = beside(run, at, is_behind);
+            if (next == at || next == piece) break;
+            at = next;
         }
-        const glm::dvec2 way = from != to ? to - from : own.to - own.from;
+        return piece;
+    }
+    glm::dvec2 right_of(std::size_t piece) const {
+        const LinePiece& p = runs_.pieces[piece].piece;
+        const glm::dvec2 way = p.to - p.from;
         const double length = std::max(glm::length(way), 1e-300);
         return {-way.y / length, way.x / length};
     }
     glm::dvec2 joint(std::uint32_t run_number, std::size_t piece, bool is_end) const {
         const LineRun& run = runs_.runs[run_number];
         const std::size_t other = beside(run, piece, is_end);
-        const glm::dvec2 own = right_of(run, piece);
-        if (other == piece) return own;
-        const glm::dvec2 sum = own + right_of(run, other);
+        if (other == piece) return right_of(first_seen(run, piece, !is_end));
+        // Both are the same on either side of the joint, so that the moved line has no step there.
+        const glm::dvec2 before = right_of(first_seen(run, is_end ? piece : other, false)),
+                         sum = before + right_of(first_seen(run, is_end ? other : piece, true));
         const double square = glm::dot(sum, sum);
         constexpr double kMostLonger = 2;
-        if (square < 4 / (kMostLonger * kMostLonger)) return square > 0 ? sum * (kMostLonger / std::sqrt(square)) : own;
+        if (square < 4 / (kMostLonger * kMostLonger))
+            return square > 0 ? sum * (kMostLonger / std::sqrt(square)) : before;
         return sum * (2 / square);
     }
 

@@ -75,6 +75,17 @@ TEST_F(StaleFrames, MotionIsOfTheNextFramesKeys) {
     EXPECT_EQ(statuses({"-f", "2-3", "-o", "y.#.exr"}), "skipped skipped ");
 }
 
+/// They are not read, and whether they are there changes nothing.
+TEST_F(StaleFrames, TexturesAreNoInput) {
+    folder_.write("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+    folder_.write("a.mtl", "newmtl m\nKd 1 0 0\nmap_Kd gone.png\nmap_d .\nbump /dev/zero\nmap_Ks C:\\t\\x.png\n");
+    folder_.write("s.toml", std::string(kView) + "[[object]]\nfile = \"a.obj\"\n");
+    const Arguments arguments{"-f", "1-2", "-o", "t.#.png"};
+    EXPECT_EQ(statuses(arguments), "done done ");
+    folder_.write("gone.png", "a picture");
+    EXPECT_EQ(statuses(arguments), "skipped skipped ");
+}
+
 TEST_F(StaleFrames, MotionIsOfTheNextFramesFile) {
     const auto triangle = [](const char* x) { return "v 0 0 0\nv " + std::string(x) + " 0 0\nv 0 1 0\nf 1 2 3\n"; };
     folder_.write("s.toml", std::string(kView) + "[[object]]\nfile = \"walk.####.obj\"\n");

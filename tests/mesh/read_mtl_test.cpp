@@ -53,12 +53,13 @@ TEST_F(ReadMtl, TexturesAreNamedOnceAndNotRead) {
     folder_.write("a.mtl",
                   "newmtl m\nmap_Kd wood bark.png\nMAP_Bump -bm 0.5 -s 1 1 1 sub\\rough.png\nmap_d wood bark.png\n"
                   "norm n.png\nmap_Ks\nmap_Ka -clamp\nrefl -type sphere ../sky.hdr\nKd 1 0 0\n");
-    std::vector<std::string> files;
+    OtherFiles files;
     EXPECT_EQ(read_material_files(folder_.file("a.obj"), {"a.mtl"}, &files).at("m").color, glm::vec3(1, 0, 0));
+    EXPECT_EQ(files.read, std::vector<std::string>{folder_.file("a.mtl")});
     std::vector<std::string> expected;
-    for (const char* name : {"a.mtl", "../sky.hdr", "n.png", "sub/rough.png", "wood bark.png"})
+    for (const char* name : {"../sky.hdr", "n.png", "sub/rough.png", "wood bark.png"})
         expected.push_back(folder_.file(name));
-    EXPECT_EQ(files, expected);
+    EXPECT_EQ(files.pictures, expected);
 }
 
 TEST_F(ReadMtl, WhatIsNoNumberBehindDIsNoOpacity) {

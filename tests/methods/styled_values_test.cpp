@@ -397,26 +397,6 @@ TEST(StyledPlaces, WobbleOfALoopIsClosed) {
     EXPECT_GT(p.size(), 40u);
 }
 
-/// Intersections of small triangles have hairs between two samples, which run anywhere; the line beside them does not.
-TEST(StyledPlaces, OffsetOfIntersectionsHasNoTangles) {
-    const auto at = [](PolygonSoup soup, glm::dvec3 place) {
-        return transformed(soup, [place](glm::dvec3 p) { return p + place; });
-    };
-    const ShadedScene scene(
-        {at(make_sphere(120, 96, 48), {150, 140, 0}), at(make_torus(100, 30, 96, 24), {180, 150, 60})},
-        pixel_camera(340, 300), sheet_of(R"("intersection")", "width = 1\noffset = 6"), 340, 300);
-    const LineRuns runs = scene.found().runs;
-    double found = 0, drawn = 0;
-    for (const LineRun& run : runs.runs) found += runs.length_px(run);
-    const InkedLines lines = scene.inked();
-    for (const InkStroke& stroke : lines.strokes) {
-        const auto p = lines.points_of(stroke);
-        for (std::size_t i = 1; i < p.size(); ++i) drawn += glm::distance(p[i - 1].place, p[i].place);
-    }
-    EXPECT_GT(found, 100);
-    EXPECT_NEAR(drawn, found, 0.25 * found);
-}
-
 TEST(StyledSets, HiddenInkIsInItsOwnLayerAndSetsInTheirs) {
     const std::string sheet = R"(style_version = 1
 [[set]]

@@ -47,7 +47,7 @@ TEST(ModelBudgetOfScenes, ShapesCountTogetherAndBeforeAnyFileIsRead) {
     const std::string message = refusal(SceneText(text));
     EXPECT_TRUE(has(message, "object 'p8'")) << message;  // each takes 240 MB
     // What is named is enough: 40 times 240 MB, and 40 instances.
-    EXPECT_TRUE(has(message, "needs about 240 MB, all of them together 9.4 GB, more than the 2.0 GB")) << message;
+    EXPECT_TRUE(has(message, "needs about 240 MB, all of its kind together 9.4 GB, more than the 2.0 GB")) << message;
 }
 
 TEST(ModelBudgetOfScenes, WhatInstancesOfAllModelsNeedIsNamed) {
@@ -62,7 +62,7 @@ TEST(ModelBudgetOfScenes, WhatInstancesOfAllModelsNeedIsNamed) {
         scene.folder().write(std::to_string(i) + ".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     const std::string message = refusal(scene, kMega);
     EXPECT_TRUE(has(message, "1.obj' of 1000 instances with 1 part each needs about 586 KB")) << message;
-    EXPECT_TRUE(has(message, "all of them together 1.7 MB, more than the 1.0 MB")) << message;
+    EXPECT_TRUE(has(message, "all of its kind together 1.7 MB, more than the 1.0 MB")) << message;
     EXPECT_EQ(refusal(scene, 2 * kMega), "");
 }
 
