@@ -5,14 +5,26 @@
 namespace burin {
 namespace {
 
-// Measured with models of 70,000 to 900,000 triangles, and pictures of 640x360 to 3840x2160.
+// Measured with models of 12 to 900,000 triangles, and pictures of 640x360 to 3840x2160.
 constexpr std::uint64_t kProgramBytes = 16'000'000;
 constexpr std::uint64_t kBytesPerTriangle = 60;
 constexpr std::uint64_t kBytesPerObject = 4'000;
 constexpr std::uint64_t kBytesOfTiffModule = 110'000'000;  // and of the libraries that it brings along
-constexpr std::uint64_t kBytesPerThread = 10'000'000;
-constexpr std::uint64_t kBytesPerColumn = 5'000;  // of bands that wait to be compressed
-constexpr std::uint64_t kBytesOfAllLines = 16'000'000;
+constexpr std::uint64_t kBytesPerThread = 4'000'000;
+// Of bands that wait to be compressed: with one thread fewer do.
+constexpr std::uint64_t kBytesPerColumn = 5'000, kBytesPerColumnOfOneThread = 3'800;
+constexpr std::uint64_t kDeepBytesPerColumn = 14'000, kDeepBytesPerColumnOfOneThread = 7'000;
+/// What is found grows with what there is to be found, up to a measure that is seldom passed.
+struct Found {
+    std::uint64_t per_triangle, per_object, most;
+    std::uint64_t in(const PictureLoad& load) const {
+        return std::min(per_triangle * load.triangles + per_object * load.objects, most);
+    }
+};
+constexpr Found kFragments{400, 60'000, 13'000'000};
+constexpr Found kAllLines{400, 60'000, 17'000'000}, kPathLines{100, 60'000, 16'000'000};
+/// Regions of surfaces in a vector file are made of samples.
+constexpr std::uint64_t kBytesOfRegions = 20'000'000, kBytesPerRegionPixel = 60;
 constexpr std::uint64_t kBytesPerDisplayPixel = 6;  // of a picture that is written as PNG or TIFF
 constexpr std::uint64_t kBytesPerColor = 8;         // red, green, blue and alpha in half precision
 
@@ -55,7 +67,8 @@ MemoryForecast forecast_memory(const PictureLoad& load) {
     const std::uint64_t pixels = pixel_count(load.area);
     const auto columns = static_cast<std::uint64_t>(load.area.width());
     if (load.is_in_bands) {
-        forecast.film = std::min(kBytesPerColumn * columns, uncompressed_bytes(load));
+        const std::uint64_t waiting = load.threads > 1 ? kBytesPerColumn : kBytesPerColumnOfOneThread;
+        forecast.film = std::min(waiting * columns, uncompressed_bytes(load));
     } else {
         constexpr std::uint64_t kRowsOfRanks = 32;
         forecast.film = bytes_per_pixel(load.layers, load.classes) * pixels +
@@ -64,10 +77,11 @@ MemoryForecast forecast_memory(const PictureLoad& load) {
             forecast.film += kBytesPerDisplayPixel * pixels;
     }
     // Samples of deep files, and of rows that wait to be compressed.
-    constexpr std::uint64_t kBytesPerSample = 48, kDeepBytesPerColumn = 14'000;
+    constexpr std::uint64_t kBytesPerSample = 48;
     if (load.layers.deep) {
-        const std::uint64_t whole = kBytesPerSample * pixels;
-        forecast.film += load.is_in_bands ? std::min(kDeepBytesPerColumn * columns, 2 * whole) : whole;
+        const std::uint64_t whole = kBytesPerSample * pixels,
+                            deep_columns = load.threads > 1 ? kDeepBytesPerColumn : kDeepBytesPerColumnOfOneThread;
+        forecast.film += load.is_in_bands ? std::min(deep_columns * columns, 2 * whole) : whole;
     }
     // Shares of owners are kept beside the film.
     constexpr std::uint64_t kBytesOfOwners = 16;
@@ -79,8 +93,12 @@ MemoryForecast forecast_memory(const PictureLoad& load) {
         forecast.film += 2 * kBytesPerColor * pixels * color_layers(load.layers);
         if (load.layers.crypto.has_any()) forecast.film += kBytesOfSharesInSums * pixels;
     }
-    const std::uint64_t method =
-        kBytesPerThread * static_cast<std::uint64_t>(load.threads) + (load.keeps_all_lines ? kBytesOfAllLines : 0);
+    if (load.has_regions) forecast.film += kBytesOfRegions + kBytesPerRegionPixel * pixels;
+    std::uint64_t method = kBytesPerThread * static_cast<std::uint64_t>(load.threads) + kFragments.in(load);
+    if (load.keeps_all_lines)
+        method += kAllLines.in(load);
+    else if (is_vector(load.format))
+        method += kPathLines.in(load);
     forecast.method = load.cap_bytes > 0 ? std::min(method, load.cap_bytes) : method;
     return forecast;
 }

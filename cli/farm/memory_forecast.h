@@ -16,7 +16,8 @@ struct PictureLoad {
     LayerSet layers;
     int classes = 0;               ///< of lines, which the layer coverage has a channel for each
     bool is_in_bands = false;      ///< an EXR that is written while it is drawn
-    bool keeps_all_lines = false;  ///< hidden lines, style sheets, paths
+    bool keeps_all_lines = false;  ///< hidden lines, style sheets
+    bool has_regions = false;      ///< surfaces in a vector file
     OutputFormat format = OutputFormat::exr;
     int threads = 1;
     std::uint64_t cap_bytes = 0;  ///< --memory; 0: none

@@ -6,6 +6,7 @@
 #include "base/json_writer.h"
 #include "base/parallel.h"
 #include "cli/job.h"
+#include "cli/vector_output.h"
 #include "scene/animation/frame_list.h"
 
 namespace burin {
@@ -27,11 +28,12 @@ PictureLoad load_of(RenderJob& job, const Arguments& a) {
     load.classes = kLineClassCount;
     load.is_blurred = job.renderer().is_blurred();
     if (load.is_blurred) load.is_in_bands = false;
-    load.keeps_all_lines = scene.sheet || draws_hidden_lines(scene);
     load.format = job.outputs().front().format;
     for (const OutputOptions& output : job.outputs()) {  // what needs most
         if (output.format == OutputFormat::png || output.format == OutputFormat::tiff) load.format = output.format;
     }
+    load.keeps_all_lines = draws_hidden_lines(scene) || (scene.sheet && !is_vector(load.format));
+    load.has_regions = is_vector(load.format) && draws_regions(scene, a);
     load.threads = resolve_thread_count(a.threads);
     load.cap_bytes = a.memory_bytes;
     load.frames_at_once = job.plan().frames.size() > 1 && load.threads > 1 ? 2 : 1;
