@@ -35,8 +35,8 @@ TEST(StyledPlaces, OffsetOfIntersectionsHasNoTangles) {
     EXPECT_NEAR(drawn, found, 0.25 * found);
 }
 
-/// A polygon moved outwards or inwards is a larger or smaller one, however short its sides are: each place of it is as far
-/// off the line as the sheet says, and at sharp corners at most twice that.
+/// A polygon moved outwards or inwards is a larger or smaller one, however short its sides are: each place of it is as
+/// far off the line as the sheet says, and at sharp corners at most twice that.
 TEST(StyledPlaces, OffsetOfSmallPolygonsKeepsTheirCorners) {
     for (const double size : {1.5, 3.0, 12.0, 14.3, 16.0, 60.0}) {
         for (const int corners : {3, 4, 5, 12}) {
