@@ -109,7 +109,7 @@ class FineLines::BlockClipper {
             const double most_from = parts.most_begin, most_to = parts.most_end;
             double from = parts.begin, to = parts.end;
             if (parts.is_any && is_own_mesh && !is_by_itself && from < to &&
-                !is_in_front_by(certain + t.slack, line, from, to, t) && is_in_plane_of(line, t, 0.5 * (from + to)))
+                contacts_.is_in_plane(line, from, to, t, certain + t.slack))
                 parts.is_any = false;  // a body in another one's plane, but for rounding
             const bool is_settled = parts.is_any && from == most_from && to == most_to;
             const auto is_none = [&] {
@@ -156,21 +156,6 @@ class FineLines::BlockClipper {
             reached = next->end;
         }
         return reached;
-    }
-
-    /// Whether a triangle is in front of a part of a line by a nearness or more, somewhere.
-    static bool is_in_front_by(double least, const WholeLine& line, double from, double to, const Occluder& t) {
-        const auto lead = [&](double at) { return t.nearness_at(line.at(at)) - line.nearness_at(at); };
-        return std::max(lead(from), lead(to)) >= least;
-    }
-    /// Whether a triangle lies in the plane of one at a line.
-    bool is_in_plane_of(const WholeLine& line, const Occluder& t, double at) const {
-        const SurfaceSet& surfaces = screen_.surfaces();
-        const SurfaceId other = screen_.surface_of(t.number);
-        const glm::dvec2 place = to_pixels(line.at(at));
-        return std::any_of(std::begin(line.owners), std::end(line.owners), [&](std::uint32_t owner) {
-            return surfaces.order_near(screen_.surface_of(owner), other, place).are_coincident();
-        });
     }
 
     struct Place {

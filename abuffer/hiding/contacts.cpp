@@ -128,6 +128,17 @@ bool Contacts::is_flush(const WholeLine& line, double begin, double end, const O
     return is_any_flush;
 }
 
+bool Contacts::is_in_plane(const WholeLine& line, double begin, double end, const Occluder& t, double certain) const {
+    const auto lead = [&](double at) { return t.nearness_at(line.at(at)) - line.nearness_at(at); };
+    if (std::max(lead(begin), lead(end)) >= certain) return false;
+    const SurfaceSet& surfaces = screen_.surfaces();
+    const SurfaceId other = screen_.surface_of(t.number);
+    const glm::dvec2 place = to_pixels(line.at(0.5 * (begin + end)));
+    return std::any_of(line.owners.begin(), line.owners.end(), [&](std::uint32_t owner) {
+        return surfaces.order_near(screen_.surface_of(owner), other, place).are_coincident();
+    });
+}
+
 /// Whether a face that ends at a line laps over another one there by a narrow strip alone.
 bool Contacts::laps_narrowly(const WholeLine& line, SurfaceId own, const FacePlace& other, glm::dvec2 middle) const {
     if (!line.is_edge()) return false;

@@ -36,6 +36,10 @@ class Contacts {
     bool is_flush(const WholeLine& line, double begin, double end, const Occluder& t, double level,
                   const LineCriteria& criteria, bool on_one_side) const;
 
+    /// Whether `t` lies in the plane of a triangle at a line, and is in front of a part of the line by less than
+    /// `certain` everywhere, in nearness: then it is level with the line, but for rounding.
+    bool is_in_plane(const WholeLine& line, double begin, double end, const Occluder& t, double certain) const;
+
     /// What the contact with `t`, where that goes on beyond a border at its depth or a little behind, makes of the
     /// border, among classes asked for; where, [begin, end] says then. nullopt: nowhere.
     std::optional<LineClassSet> classes_of_contact(const WholeLine& line, const Occluder& t,
