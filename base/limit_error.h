@@ -19,7 +19,7 @@ class LimitError : public InputError {
           advice_(std::move(advice)),
           least_mb_(least_mb) {}
 
-    /// The same for a job that needs so many times as much.
+    /// The message for a job that needs `count` times the memory of this one.
     LimitError times(std::uint64_t count) const { return {picture_, count * least_mb_, advice_}; }
 
   private:

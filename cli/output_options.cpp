@@ -76,7 +76,7 @@ std::string first_output(const Arguments& a) {
 
 OutputOptions output_options(const Arguments& a) {
     if (!a.more_outputs.empty())
-        throw UsageError("--output: is given more than once, which render takes alone; remove one");
+        throw UsageError("--output: is given more than once; only render writes several files, remove one");
     OutputOptions options = picture_options(a, first_output(a));
     refuse_exr_options(a, options.format);
     if (writes_stats_file(a) && is_one_file(a.stats, options.path))

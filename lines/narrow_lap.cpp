@@ -16,9 +16,11 @@ constexpr double kCosOfFacets = 0.961, kCosOfParallels = 0.99996;
 /// Facets that are parallel are told from sides of boards by those beside them: these bend by at most 31 degrees, and
 /// are at most four times as long or as short.
 constexpr double kCosOfRim = 0.857, kMostUneven = 4;
-constexpr int kMostTurns = 64;  // a vertex, or an edge
+/// So many triangles around a vertex, or at an edge, are looked at to find the facet beside one.
+constexpr int kMostTurns = 64;
 constexpr double kNarrowPart = 1.0 / 12;
-/// A facet is asked for laps over others up to so many times as long.
+/// The edge of the other face may be 8 times as long as the own one. A longer edge allows a wider lap, so the other
+/// face's end is looked for that much farther away.
 constexpr double kMostTimesLonger = 8;
 /// A face leaves its plane where it bends by more than 10 degrees.
 constexpr double kCosBend = 0.985;
@@ -26,7 +28,7 @@ constexpr double kCosBend = 0.985;
 /// pixels.
 constexpr double kBesidePx = 1.0 / 64;
 
-/// Edges of a face, which end where it bends.
+/// The edges at which faces of one mesh end, which is where they bend.
 class Rim {
   public:
     Rim(const SurfaceSet& surfaces, std::uint32_t instance)
@@ -48,7 +50,8 @@ class Rim {
     }
 
   private:
-    /// Whether the edge goes on so at one of its ends. `step`: to the next edge of a triangle, or the one before.
+    /// Whether the edge at one of its ends is the next facet of the same curve. `step`: to the next edge of a triangle,
+    /// or the one before.
     bool goes_on(HalfEdge h, HalfEdge step) const {
         const std::optional<HalfEdge> next = edge_after(h, step);
         if (!next) return false;

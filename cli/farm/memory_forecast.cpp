@@ -11,10 +11,11 @@ constexpr std::uint64_t kBytesPerTriangle = 60;
 constexpr std::uint64_t kBytesPerObject = 4'000;
 constexpr std::uint64_t kBytesOfTiffModule = 110'000'000;  // and of the libraries that it brings along
 constexpr std::uint64_t kBytesPerThread = 4'000'000;
-// Of bands that wait to be compressed: with one thread fewer do.
+// Of bands that wait to be compressed. Fewer of them wait where there is only one thread.
 constexpr std::uint64_t kBytesPerColumn = 5'000, kBytesPerColumnOfOneThread = 3'800;
 constexpr std::uint64_t kDeepBytesPerColumn = 14'000, kDeepBytesPerColumnOfOneThread = 7'000;
-/// What is found grows with what there is to be found, up to a measure that is seldom passed.
+/// How many lines a picture has is not known before it is drawn. What they take is told from the numbers of triangles
+/// and objects, up to a number of bytes that large scenes seldom passed.
 struct Found {
     std::uint64_t per_triangle, per_object, most;
     std::uint64_t in(const PictureLoad& load) const {

@@ -51,8 +51,8 @@ constexpr std::string_view kCollectScript = R"sh(#!/bin/sh
 #SBATCH --output="@logs@/collect_%j.txt"
 cd @folder@ || exit 1
 @joins@@removal@if ! found=$(@program@ render@arguments@ -f @frames@@outputs@ -q --skip-existing --dry-run); then
-    # As where an input is gone. Which frames are made from it as it is cannot be told; a run of each will say.
-    echo "which frames are missing cannot be told, for what is said above"
+    # The scene cannot be loaded, as where a model of it is gone: so nothing tells which frames are there.
+    echo "which frames are missing is not known: the scene cannot be loaded, see above"
     printf 'render what is missing: %s -f %s\n' @resubmit@ @frames@
     exit 1
 fi
