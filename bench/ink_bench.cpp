@@ -1,10 +1,10 @@
-// ink_bench MODEL WIDTH HEIGHT RUNS: what it costs to draw the lines of a frame with looks, beside drawing them with
-// one. Prints the JSON object of section "ink": seconds of CPU time of one thread, medians over the runs.
+// ink_bench MODEL WIDTH HEIGHT RUNS: what it costs to shade and to draw the lines of a frame with looks, beside drawing
+// them with one. Prints the JSON object of section "ink": seconds of CPU time of one thread, medians over the runs.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <functional>
-#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +14,8 @@
 #include "methods/abuffer.h"
 #include "render/close_cracks.h"
 #include "scene/scene_description.h"
+#include "scene/sheet_toml.h"
+#include "shading/ink/ink_lines.h"
 #include "strokes/ink_printer.h"
 
 namespace burin::bench {
@@ -21,61 +23,39 @@ namespace {
 
 enum class Look { constant, translucent, varying };
 
-/// Numbers for pieces, equal for those that hang together.
-class Chains {
-  public:
-    std::uint64_t chain_of(const LinePiece& piece) {
-        std::uint64_t& from = ends_.try_emplace({piece.from.x, piece.from.y}, ends_.size()).first->second;
-        return ends_.try_emplace({piece.to.x, piece.to.y}, from).first->second = from;
+/// A sheet that draws the lines that are found without one. Varying ink changes evenly along a line, as a look that
+/// depends on depth or light.
+std::shared_ptr<const StyleSheet> sheet_of(Look look, double width_px) {
+    const std::string width = std::to_string(width_px);
+    std::string text =
+        "[let]\n"
+        "wave = \"=0.5 + 0.5 * sind(3 * (x + y))\"\n"
+        "[[set]]\n"
+        "name = \"all\"\n"
+        "style = \"ink\"\n"
+        "classes = [\"silhouette\", \"border\", \"crease\", \"intersection\", \"object\"]\n"
+        "[style.ink]\n";
+    if (look == Look::varying) {
+        text += "width = \"=" + width + " * (0.6 + 0.8 * wave)\"\n";
+        text += "opacity = \"=0.5 + 0.5 * wave\"\ncolor = \"=rgb(0.3 * wave, 0, 0)\"\n";
+    } else {
+        text += "width = " + width + "\n";
+        if (look == Look::translucent) text += "opacity = 0.5\n";
     }
-
-  private:
-    std::map<std::pair<double, double>, std::uint64_t> ends_;
-};
-
-/// The visible lines as strokes.
-InkedLines inked(const LineDrawing& drawing, const LineStyle& style, Look look) {
-    InkedLines lines;
-    Chains chains;
-    for (const auto& list : drawing.visible()) {
-        for (const LinePiece& piece : list) {
-            InkOrder order;
-            order.drawn_as = piece.drawn_as;
-            if (piece.occludes)
-                lines.boundaries.push_back({piece.from, piece.to, piece.nearness_from, piece.nearness_to,
-                                            piece.front_on_left, order, piece.is_drawn});
-            if (!piece.is_drawn) continue;
-            InkStroke stroke;
-            stroke.first_point = lines.points.size();
-            stroke.point_count = 2;
-            stroke.order = order;
-            stroke.chain = chains.chain_of(piece);
-            stroke.is_constant = look != Look::varying;
-            InkPoint point;
-            point.occludes = piece.occludes;
-            point.front_on_left = piece.front_on_left;
-            const auto add = [&](glm::dvec2 place, float nearness) {
-                // Evenly from one place to another, as a look that depends on depth or light.
-                const auto wave = static_cast<float>(0.5 + 0.5 * std::sin(0.05 * (place.x + place.y)));
-                point.place = place;
-                point.nearness = nearness;
-                point.width_px = static_cast<float>(style.width_px) * (look == Look::varying ? 0.6f + 0.8f * wave : 1);
-                point.opacity = look == Look::constant ? 1 : look == Look::translucent ? 0.5f : 0.5f + 0.5f * wave;
-                point.color = glm::vec3(look == Look::varying ? 0.3f * wave : 0);
-                lines.points.push_back(point);
-            };
-            add(piece.from, piece.nearness_from);
-            add(piece.to, piece.nearness_to);
-            lines.strokes.push_back(stroke);
-        }
-    }
-    return lines;
+    return std::make_shared<const StyleSheet>(read_sheet_text(text, "sheet"));
 }
 
 struct Case {
     std::string name;
     std::function<void(Film&)> draw;
     Samples cpu;
+};
+
+/// A frame whose lines are found, so that they can be shaded and drawn again and again.
+struct Styled {
+    Frame frame;
+    FoundLines lines;
+    InkedLines ink;
 };
 
 std::string measure(const std::string& model, int width, int height, int runs) {
@@ -85,25 +65,47 @@ std::string measure(const std::string& model, int width, int height, int runs) {
     settings.fit = 0.95;
     const Camera camera = resolve_camera(settings, scene_points(scene), static_cast<double>(width) / height);
     close_cracks(scene, camera, width, height, 1);
+    RunOptions options;
+    options.threads = 1;
+    const LayerSet layers{.depth = false, .normal = false, .ids = false};
+    const PixelRect whole{0, 0, width, height};
     JsonWriter json;
     json.begin_object().key("runs").value(runs).key("width").value(width).key("height").value(height);
     for (const double width_px : {1.0, 3.0}) {
         scene.lines.style.width_px = width_px;
+        scene.sheet.reset();
         const PreparedScene prepared = prepare_for_abuffer(scene, 1);
-        const Frame frame = make_frame(scene, camera, width, height, {0, 0, width, height}, &prepared);
-        RunOptions options;
-        options.threads = 1;
-        const LayerSet layers{.depth = false, .normal = false, .ids = false};
-        Film film(frame.crop, frame.crop, layers, frame.criteria.classes);
+        const Frame frame = make_frame(scene, camera, width, height, whole, &prepared);
+        Film film(whole, whole, layers, frame.criteria.classes);
         const LineDrawing drawing = find_drawing(frame, options, film);
-        const InkedLines constant = inked(drawing, scene.lines.style, Look::constant),
-                         translucent = inked(drawing, scene.lines.style, Look::translucent),
-                         varying = inked(drawing, scene.lines.style, Look::varying);
         std::vector<Case> cases;
+        cases.push_back({"frame", [&](Film& f) { render_abuffer(frame, options, f); }, {}});
         cases.push_back({"one_look", [&](Film& f) { draw_lines(frame, drawing, options, f); }, {}});
-        cases.push_back({"constant", [&](Film& f) { draw_ink(frame, constant, 1, f); }, {}});
-        cases.push_back({"translucent", [&](Film& f) { draw_ink(frame, translucent, 1, f); }, {}});
-        cases.push_back({"varying", [&](Film& f) { draw_ink(frame, varying, 1, f); }, {}});
+        const auto styled = [&](Look look) {
+            scene.sheet = sheet_of(look, width_px);
+            auto made = std::make_shared<Styled>();
+            made->frame = make_frame(scene, camera, width, height, whole, &prepared);
+            Film own(whole, whole, layers, frame.criteria.classes);
+            RenderStats stats;
+            std::vector<std::string> notes;
+            made->lines = find_styled_lines(made->frame, options, own, stats);
+            made->ink = ink_lines(made->lines, *made->frame.sheet, 1, notes);
+            return made;
+        };
+        const auto constant = styled(Look::constant), translucent = styled(Look::translucent),
+                   varying = styled(Look::varying);
+        const auto shade = [](const Styled& s) {
+            return [&s](Film&) {
+                std::vector<std::string> notes;
+                ink_lines(s.lines, *s.frame.sheet, 1, notes);
+            };
+        };
+        const auto draw = [](const Styled& s) { return [&s](Film& f) { draw_ink(s.frame, s.ink, 1, f); }; };
+        cases.push_back({"shade_constant", shade(*constant), {}});
+        cases.push_back({"shade_varying", shade(*varying), {}});
+        cases.push_back({"constant", draw(*constant), {}});
+        cases.push_back({"translucent", draw(*translucent), {}});
+        cases.push_back({"varying", draw(*varying), {}});
         for (int run = -1; run < runs; ++run) {  // run -1 warms up
             for (Case& c : cases) {
                 Film own = film.copy();
@@ -113,10 +115,16 @@ std::string measure(const std::string& model, int width, int height, int runs) {
             }
         }
         json.key("width_" + std::to_string(static_cast<int>(width_px)) + "_px").begin_object();
-        json.key("strokes").value(static_cast<std::uint64_t>(constant.strokes.size()));
+        json.key("strokes").value(static_cast<std::uint64_t>(varying->ink.strokes.size()));
+        json.key("samples").value(static_cast<std::uint64_t>(varying->ink.points.size()));
         for (const Case& c : cases) write_samples(json, c.name + "_cpu_s", c.cpu);
-        write_ratio(json, "constant_per_one_look", cases[1].cpu, cases[0].cpu);
-        write_ratio(json, "varying_per_constant", cases[3].cpu, cases[1].cpu);
+        const Samples &of_frame = cases[0].cpu, &of_varying = cases[6].cpu;
+        Samples more;
+        for (std::size_t run = 0; run < of_frame.size(); ++run) more.add(cases[3].cpu[run] - cases[2].cpu[run]);
+        write_ratio(json, "expressions_per_frame", more, of_frame);
+        write_ratio(json, "constant_per_one_look", cases[4].cpu, cases[1].cpu);
+        write_ratio(json, "varying_per_constant", of_varying, cases[4].cpu);
+        write_ratio(json, "varying_per_translucent", of_varying, cases[5].cpu);
         json.end_object();
     }
     json.end_object();

@@ -75,7 +75,7 @@ void InkRegions::lay_below(const InkSpot& spot) {
         region.stack.lay_below(spot);
     }
     if (!in_place_) join_opaque();
-    while (count_ > regions_.size() / 2) merge_most_alike();
+    if (count_ > regions_.size() / 2) merge_most_alike();
 }
 
 /// Makes one of all regions that nothing is seen through: they will not differ any more.
@@ -94,21 +94,37 @@ void InkRegions::join_opaque() {
     }
 }
 
+/// How much the mean of a pixel may be off if two of its regions become one.
+float InkRegions::loss(const Region& a, const Region& b) {
+    const glm::vec3 through = a.stack.through - b.stack.through, tint = a.stack.tint - b.stack.tint;
+    const float left = a.stack.left - b.stack.left,
+                square = glm::dot(through, through) + glm::dot(tint, tint) + left * left;
+    const auto n = static_cast<float>(a.samples), m = static_cast<float>(b.samples);
+    return square * n * m / (n + m);
+}
+
 void InkRegions::merge_most_alike() {
-    std::size_t first = 0, second = 1;
-    float least = std::numeric_limits<float>::infinity();
-    for (std::size_t i = 0; i < count_; ++i) {
-        for (std::size_t k = i + 1; k < count_; ++k) {
-            const Region &a = regions_[i], &b = regions_[k];
-            const glm::vec3 through = a.stack.through - b.stack.through, tint = a.stack.tint - b.stack.tint;
-            const float left = a.stack.left - b.stack.left,
-                        square = glm::dot(through, through) + glm::dot(tint, tint) + left * left;
-            const auto n = static_cast<float>(a.samples), m = static_cast<float>(b.samples);
-            const float loss = square * n * m / (n + m);
-            if (loss < least) least = loss, first = i, second = k;
+    const auto find = [&](std::size_t i) {
+        for (std::size_t k = 0; k < i; ++k) losses_[i * regions_.size() + k] = loss(regions_[k], regions_[i]);
+    };
+    for (std::size_t i = 0; i < count_; ++i) find(i);
+    while (count_ > regions_.size() / 2) {
+        std::size_t first = 0, second = 1;
+        float least = std::numeric_limits<float>::infinity();
+        for (std::size_t i = 0; i < count_; ++i) {
+            for (std::size_t k = i + 1; k < count_; ++k) {
+                const float own = losses_[k * regions_.size() + i];
+                if (own < least) least = own, first = i, second = k;
+            }
+        }
+        merge(first, second);
+        for (const std::size_t changed : {first, second}) {
+            if (changed >= count_) continue;
+            find(changed);
+            for (std::size_t k = changed + 1; k < count_; ++k)
+                losses_[k * regions_.size() + changed] = loss(regions_[changed], regions_[k]);
         }
     }
-    merge(first, second);
 }
 
 /// The last region takes the place of the second one.

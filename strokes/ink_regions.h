@@ -55,7 +55,9 @@ class InkRegions {
 
     /// `in_place`: where in the pixel each region lies is asked for, as filters do, so that fewer become one.
     InkRegions(const TileKernels& kernels, bool in_place)
-        : kernels_(&kernels), in_place_(in_place), regions_(2 * (in_place ? kMostInPlace : kMost)) {}
+        : kernels_(&kernels), in_place_(in_place), regions_(2 * (in_place ? kMostInPlace : kMost)) {
+        losses_.resize(regions_.size() * regions_.size());
+    }
     void reset();
     void lay_below(const InkSpot& spot);
     /// Calls use(mask, samples, stack) for each region; all together are the pixel.
@@ -73,6 +75,7 @@ class InkRegions {
         InkStack stack;
     };
     void join_opaque();
+    static float loss(const Region& a, const Region& b);
     void merge_most_alike();
     void merge(std::size_t first, std::size_t second);
 
@@ -80,6 +83,7 @@ class InkRegions {
     bool in_place_;
     std::vector<Region> regions_;  // each may split before some become one
     std::size_t count_ = 0;
+    std::vector<float> losses_;  // of each pair, while some become one
 };
 
 }  // namespace burin

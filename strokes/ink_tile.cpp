@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "base/interrupt.h"
@@ -20,6 +21,13 @@ bool is_before(const InkedLines& lines, const InkStroke& a, const InkStroke& b) 
     const auto of_a = lines.points_of(a), of_b = lines.points_of(b);
     return std::lexicographical_compare(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
                                         [&](const InkPoint& p, const InkPoint& q) { return key(p) < key(q); });
+}
+
+/// Whether the last disc of one cone is the first one of the next, sample by sample.
+bool ends_where_begins(const PenCone& a, const PenCone& b) {
+    const auto is_level_cone = [](const PenCone& c) { return is_level(c.to[0] - c.from[0], c.to[1] - c.from[1]); };
+    return a.to[0] == b.from[0] && a.to[1] == b.from[1] && a.radius_to == b.radius_from && a.cut_count == 0 &&
+           b.cut_count == 0 && is_level_cone(a) == is_level_cone(b);
 }
 
 }  // namespace
@@ -113,8 +121,9 @@ void InkTile::draw(std::span<const InkSegmentRef> segments, std::span<const std:
 void InkTile::find_boundaries(std::span<const std::uint32_t> boundaries) {
     boundaries_.clear();
     boundary_numbers_.clear();
-    hiding_for_.reset();
-    hiding_.clear();
+    clipping_.clear();
+    most_cuts_below_ = 0;
+    least_drawn_width_px_ = std::numeric_limits<float>::infinity();
     bool has_sides = false;
     std::uint32_t least_rank = ~0u;
     for (const InkSegmentRef& ref : segments_) {
@@ -127,14 +136,18 @@ void InkTile::find_boundaries(std::span<const std::uint32_t> boundaries) {
         plan_.has_drawn_widths || std::any_of(boundaries.begin(), boundaries.end(),
                                               [&](std::uint32_t i) { return least_rank < plan_.hides_below[i]; });
     if (!may_hide && !has_sides) return;
-    clipper_.reset(rect_.x0, rect_.y0, rect_.width(), rect_.height());
-    clipper_.set_boundaries(hiding_);
     for (const std::uint32_t i : boundaries) {
         const InkBoundary& b = lines_.boundaries[i];
         boundaries_.push_back({b.from, b.to, depth_px(projection_, b.nearness_from),
-                               depth_px(projection_, b.nearness_to), true, b.front_on_left});
+                               depth_px(projection_, b.nearness_to), true, b.front_on_left, plan_.hides_below[i],
+                               b.drawn_width_px});
         boundary_numbers_.push_back(i);
+        most_cuts_below_ = std::max(most_cuts_below_, plan_.hides_below[i]);
+        least_drawn_width_px_ = std::min(least_drawn_width_px_, b.drawn_width_px);
     }
+    for (const ClipPiece& b : boundaries_) clipping_.push_back(&b);
+    clipper_.reset(rect_.x0, rect_.y0, rect_.width(), rect_.height());
+    clipper_.set_boundaries(clipping_);
 }
 
 void InkTile::draw_layer(std::span<const InkSegmentRef> segments) {
@@ -146,16 +159,16 @@ void InkTile::draw_layer(std::span<const InkSegmentRef> segments) {
     for (const InkSegmentRef& ref : segments) {
         throw_if_interrupted();
         if (owners_ != nullptr) tell_owner(ref);
-        const bool is_cut = is_clipped(ref);
-        if (!is_cut && lines_.strokes[ref.stroke].caps == StrokeCaps::round) {  // mostly
+        const bool may_be_cut = may_be_clipped(ref);
+        if (!may_be_cut && lines_.strokes[ref.stroke].caps == StrokeCaps::round) {  // mostly
             canvas.draw(lines_.points[ref.point].place, lines_.points[ref.point + 1].place,
                         static_cast<double>(plan_.pen_radius_px[ref.stroke]));
             continue;
         }
-        const InkSegment segment = segment_of(ref);
-        for (const InkSegment::Part& part : segment.parts()) {
-            if (is_cut) {
-                draw_clipped(ref, segment, part.cone, canvas);
+        const Placed placed{ref, segment_of(ref)};
+        for (const InkSegment::Part& part : placed.segment.parts()) {
+            if (may_be_cut) {
+                draw_clipped(placed, part.cone, canvas);
             } else {
                 canvas.draw(part.cone);
             }
@@ -204,14 +217,16 @@ void InkTile::draw_chain(std::span<const InkSegmentRef> segments) {
 void InkTile::draw_parts(bool is_thin, bool body_only) {
     const auto use_cut = [&](const Placed& placed, const InkSegment::Part& part, const auto& use) {
         piece_.reset(rect_.x0, rect_.y0, rect_.width(), rect_.height());
-        draw_clipped(placed.ref, placed.segment, part.cone, piece_);
+        draw_clipped(placed, part.cone, piece_);
         piece_.for_touched([&](int column, int row) { use(column, row, piece_.at(column, row)); });
     };
     std::size_t next_part = 0;
+    const PenCone* before = nullptr;  // what is drawn whole, with both discs
     for (const Placed& placed : placed_) {
         if (body_only && placed.segment.is_constant()) continue;
         throw_if_interrupted();
-        const bool is_cut = is_clipped(placed.ref);
+        const bool is_cut = is_clipped(placed);
+        if (is_cut) before = nullptr;
         for (const InkSegment::Part& part : placed.segment.parts()) {
             if (part.is_thin != is_thin) continue;
             PenCone cone = part.cone;
@@ -221,8 +236,10 @@ void InkTile::draw_parts(bool is_thin, bool body_only) {
                 if (body_only || placed.segment.is_constant()) {
                     one_.draw(kernels_, cone, rect_, use);
                 } else {  // its body is there already
-                    one_.draw_ends(kernels_, cone, rect_, use);
+                    const bool has_first = before == nullptr || !ends_where_begins(*before, part.cone);
+                    one_.draw_ends(kernels_, cone, has_first, rect_, use);
                 }
+                before = body_only ? nullptr : &part.cone;
             } else if (body_only) {
                 use_cut(placed, part, [&](int column, int row, const StrokeMask& mask) {
                     cut_masks_.push_back({column, row, mask});
@@ -286,35 +303,35 @@ void InkTile::sort_records() {
     for (std::uint32_t i = 0; i < records_.size(); ++i) sorted_[next_[records_[i].pixel]++] = i;
 }
 
-/// Whether boundaries may cut a segment. Those that may are chosen then.
-bool InkTile::is_clipped(const InkSegmentRef& ref) {
+/// Whether boundaries may cut a segment, or it is drawn on one side only.
+bool InkTile::may_be_clipped(const InkSegmentRef& ref) const {
     const InkStroke& stroke = lines_.strokes[ref.stroke];
-    if (stroke.is_behind || stroke.order.is_hidden || boundaries_.empty())
-        return drawn_side(stroke) != StrokeSide::both;
-    const bool has_side = stroke.side != StrokeSide::both;
-    Hiding wanted{ref.rank, has_side, 0};
-    if (plan_.has_drawn_widths)
-        wanted.width_px = std::max(lines_.points[ref.point].width_px, lines_.points[ref.point + 1].width_px);
-    if (hiding_for_ == wanted) return has_side || !hiding_.empty();
-    hiding_for_ = wanted;
-    hiding_.clear();
-    for (std::size_t i = 0; i < boundaries_.size(); ++i) {
-        const std::uint32_t number = boundary_numbers_[i];
-        if (has_side || ref.rank < plan_.hides_below[number] ||
-            lines_.boundaries[number].drawn_width_px < wanted.width_px)
-            hiding_.push_back(&boundaries_[i]);
-    }
-    clipper_.set_boundaries(hiding_);
-    return has_side || !hiding_.empty();
+    if (drawn_side(stroke) != StrokeSide::both) return true;
+    if (stroke.is_behind || stroke.order.is_hidden || boundaries_.empty()) return false;
+    return ref.rank < most_cuts_below_ ||
+           least_drawn_width_px_ < std::max(lines_.points[ref.point].width_px, lines_.points[ref.point + 1].width_px);
 }
 
-void InkTile::draw_clipped(const InkSegmentRef& ref, const InkSegment& segment, const PenCone& cone,
-                           StrokeCanvas& onto) {
-    const InkPoint &from = segment.from(), &to = segment.to();
-    const ClipPiece piece{
+/// Whether any boundary is near enough to cut a part of it.
+bool InkTile::is_clipped(const Placed& placed) const {
+    return may_be_clipped(placed.ref) && clipper_.may_cut(clip_piece(placed), placed.segment.radius_px(),
+                                                          drawn_side(lines_.strokes[placed.ref.stroke]));
+}
+
+ClipPiece InkTile::clip_piece(const Placed& placed) const {
+    const InkPoint &from = placed.segment.from(), &to = placed.segment.to();
+    ClipPiece piece{
         from.place,    to.place,          depth_px(projection_, from.nearness), depth_px(projection_, to.nearness),
         from.occludes, from.front_on_left};
-    const StrokeSide side = drawn_side(lines_.strokes[ref.stroke]);
+    piece.rank = placed.ref.rank;
+    piece.width_px = std::max(from.width_px, to.width_px);
+    return piece;
+}
+
+void InkTile::draw_clipped(const Placed& placed, const PenCone& cone, StrokeCanvas& onto) {
+    const InkPoint& from = placed.segment.from();
+    const ClipPiece piece = clip_piece(placed);
+    const StrokeSide side = drawn_side(lines_.strokes[placed.ref.stroke]);
     const ClipPiece* own = &piece;
     if (side != StrokeSide::both && from.boundary != InkPoint::kNoBoundary) {  // which does not cut itself
         const auto at = std::lower_bound(boundary_numbers_.begin(), boundary_numbers_.end(), from.boundary);

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <deque>
 #include <glm/glm.hpp>
 #include <numbers>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -77,39 +77,33 @@ class PieceMasks {
     template <typename Use>
     void draw(const TileKernels& kernels, const PenCone& cone, PixelRect rect, const Use& use) {
         const double reach = std::max(cone.radius_from, cone.radius_to) + kMarginPx;
-        const auto within = [](double v, int low, int high) {
-            return static_cast<int>(std::clamp(v, static_cast<double>(low), static_cast<double>(high)));
-        };
-        const int x0 = within(std::floor(std::min(cone.from[0], cone.to[0]) - reach), rect.x0, rect.x1),
-                  x1 = within(std::ceil(std::max(cone.from[0], cone.to[0]) + reach), rect.x0, rect.x1),
-                  y0 = within(std::floor(std::min(cone.from[1], cone.to[1]) - reach), rect.y0, rect.y1),
-                  y1 = within(std::ceil(std::max(cone.from[1], cone.to[1]) + reach), rect.y0, rect.y1);
-        if (x0 >= x1 || y0 >= y1) return;
-        const std::size_t room = static_cast<std::size_t>((x1 - x0) * (y1 - y0)) + kRoomBehindMasks;
-        if (masks_.size() < room) {
-            masks_.resize(room);
-            touched_.resize(room);
-        }
-        kernels.stroke.draw_cone(cone,
-                                 {masks_.data()->rows.data(), touched_.data(), x0, y0, x1 - x0, y1 - y0, x1 - x0});
-        std::size_t i = 0;
-        for (int y = y0; y < y1; ++y) {
-            for (int x = x0; x < x1; ++x, ++i) {
-                if (touched_[i] == 0) continue;
-                use(x - rect.x0, y - rect.y0, masks_[i]);
-                masks_[i] = StrokeMask{};
-                touched_[i] = 0;
-            }
-        }
+        const PixelRect box =
+            box_around({std::min(cone.from[0], cone.to[0]), std::min(cone.from[1], cone.to[1])},
+                       {std::max(cone.from[0], cone.to[0]), std::max(cone.from[1], cone.to[1])}, reach, rect);
+        draw_in(kernels, cone, box, [&](int x, int y, const StrokeMask& mask) { use(x - rect.x0, y - rect.y0, mask); });
     }
 
-    /// draw(), but only the pixels near its ends: in others it is nothing but its body.
+    /// draw(), but only the pixels near its ends, in others it is nothing but its body; without its first end, if
+    /// the disc there is drawn already.
     template <typename Use>
-    void draw_ends(const TileKernels& kernels, const PenCone& cone, PixelRect rect, const Use& use) {
+    void draw_ends(const TileKernels& kernels, const PenCone& cone, bool has_first, PixelRect rect, const Use& use) {
         const EndsOfCone ends(cone);
-        draw(kernels, cone, rect, [&](int column, int row, const StrokeMask& mask) {
-            if (ends.may_reach(rect.x0 + column + 0.5, rect.y0 + row + 0.5)) use(column, row, mask);
-        });
+        const auto draw_near = [&](PixelRect box) {
+            draw_in(kernels, cone, box, [&](int x, int y, const StrokeMask& mask) {
+                if (ends.may_reach(x + 0.5, y + 0.5)) use(x - rect.x0, y - rect.y0, mask);
+            });
+        };
+        const PixelRect first = ends.box(cone.from, cone.radius_from, rect),
+                        last = ends.box(cone.to, cone.radius_to, rect);
+        if (!has_first) return draw_near(last);
+        const bool are_apart = first.x1 <= last.x0 || last.x1 <= first.x0 || first.y1 <= last.y0 || last.y1 <= first.y0;
+        if (are_apart) {
+            draw_near(first);
+            draw_near(last);
+        } else {
+            draw_near({std::min(first.x0, last.x0), std::min(first.y0, last.y0), std::max(first.x1, last.x1),
+                       std::max(first.y1, last.y1)});
+        }
     }
 
   private:
@@ -129,12 +123,55 @@ class PieceMasks {
             const double at = glm::dot(glm::dvec2(x, y) - from_, along_);
             return !(at > first_ && at < last_);
         }
+        /// The pixels around one end that it may reach there: no sample of the disc beyond the body lies farther from
+        /// its middle than the radius.
+        static PixelRect box(const double (&place)[2], double radius, PixelRect rect) {
+            const glm::dvec2 at(place[0], place[1]);
+            return box_around(at, at, radius + kMarginPx, rect);
+        }
 
       private:
         glm::dvec2 from_, along_;
         double first_ = 0, last_ = 0;
     };
     static constexpr double kMarginPx = 1.0 / 8;  // for shifted samples, and rounding
+
+    static PixelRect box_around(glm::dvec2 low, glm::dvec2 high, double reach, PixelRect rect) {
+        const auto within = [](double v, int least, int most) {
+            return static_cast<int>(std::clamp(v, static_cast<double>(least), static_cast<double>(most)));
+        };
+        return {
+            within(std::floor(low.x - reach), rect.x0, rect.x1), within(std::floor(low.y - reach), rect.y0, rect.y1),
+            within(std::ceil(high.x + reach), rect.x0, rect.x1), within(std::ceil(high.y + reach), rect.y0, rect.y1)};
+    }
+
+    /// Calls use(x, y, mask) for the pixels of a box that it touches.
+    template <typename Use>
+    void draw_in(const TileKernels& kernels, const PenCone& cone, PixelRect box, const Use& use) {
+        if (box.x0 >= box.x1 || box.y0 >= box.y1) return;
+        const int stride = (box.width() + 7) / 8 * 8;
+        const std::size_t room = static_cast<std::size_t>(stride * box.height()) + kRoomBehindMasks;
+        if (masks_.size() < room) {
+            masks_.resize(room);
+            touched_.resize(room);
+        }
+        kernels.stroke.draw_cone(
+            cone, {masks_.data()->rows.data(), touched_.data(), box.x0, box.y0, box.width(), box.height(), stride});
+        std::size_t first = 0;
+        for (int y = box.y0; y < box.y1; ++y) {
+            for (int x = box.x0; x < box.x1; x += 8, first += 8) {
+                std::uint64_t eight = StrokeCanvas::eight_bytes(&touched_[first]);
+                if (eight == 0) continue;
+                std::fill_n(&touched_[first], 8, std::uint8_t{0});
+                for (; eight != 0; eight &= eight - 1) {
+                    const int i = std::countr_zero(eight) / 8;
+                    StrokeMask& mask = masks_[first + static_cast<std::size_t>(i)];
+                    use(x + i, y, mask);
+                    mask = StrokeMask{};
+                }
+            }
+        }
+    }
 
     std::vector<StrokeMask, CacheLineAllocator<StrokeMask>> masks_;
     std::vector<std::uint8_t> touched_;
@@ -191,13 +228,6 @@ class InkTile {
         int column, row;
         StrokeMask mask;
     };
-    /// What decides which boundaries hide a stroke.
-    struct Hiding {
-        std::uint32_t rank;
-        bool has_side;
-        float width_px;
-        bool operator==(const Hiding&) const = default;
-    };
     /// A record of which samples are left for halos to erase, and how near they are.
     struct Behind {
         float nearness;
@@ -211,8 +241,10 @@ class InkTile {
     void tell_owner(const InkSegmentRef& ref);
     void draw_chain(std::span<const InkSegmentRef> segments);
     void draw_parts(bool is_thin, bool body_only);
-    bool is_clipped(const InkSegmentRef& ref);
-    void draw_clipped(const InkSegmentRef& ref, const InkSegment& segment, const PenCone& cone, StrokeCanvas& onto);
+    bool may_be_clipped(const InkSegmentRef& ref) const;
+    bool is_clipped(const Placed& placed) const;
+    ClipPiece clip_piece(const Placed& placed) const;
+    void draw_clipped(const Placed& placed, const PenCone& cone, StrokeCanvas& onto);
     void take(const Placed& placed, int column, int row, const StrokeMask& mask);
     void sort_records();
     void erase_behind_halos();
@@ -250,8 +282,9 @@ class InkTile {
     StrokeClipper clipper_;
     std::vector<ClipPiece> boundaries_;
     std::vector<std::uint32_t> boundary_numbers_;
-    std::vector<const ClipPiece*> hiding_;
-    std::optional<Hiding> hiding_for_;
+    std::vector<const ClipPiece*> clipping_;  // all of them
+    std::uint32_t most_cuts_below_ = 0;
+    float least_drawn_width_px_ = 0;
 };
 
 }  // namespace burin

@@ -127,18 +127,20 @@ void StrokeClipper::for_spans_of(std::span<const HalfPlane> sides, double down, 
     }
     if (!(first < last)) return;
     for (int row = static_cast<int>(first); row < last; ++row) {
-        double low = first_column_, high = end_column_;  // columns in [low, high)
+        double low = first_column_, high = end_column_ - 1;  // columns in [low, high]
         const double shift = stroke_row_shift(y0_ * StrokeMask::kRows + row);
         for (std::size_t i = 0; i < count; ++i) {
             const double column = bounds[i].column + bounds[i].per_row * row - shift;
             if (bounds[i].is_low) {
-                low = std::max(low, std::ceil(column));
+                low = std::max(low, column);
             } else {
-                high = std::min(high, std::floor(column) + 1);
+                high = std::min(high, column);
             }
         }
-        if (!(low < high)) continue;
-        for_pixels(static_cast<int>(low), static_cast<int>(high), [&](int pixel, std::uint32_t bits) {
+        if (!(low <= high)) continue;
+        // Both lie within the canvas's columns: no rounding by a call.
+        const auto begin = static_cast<int>(low), end = static_cast<int>(high);
+        for_pixels(begin < low ? begin + 1 : begin, end + 1, [&](int pixel, std::uint32_t bits) {
             if ((bits & columns) == 0) return;
             visit(row / StrokeMask::kRows * width_ + pixel, static_cast<std::size_t>(row % StrokeMask::kRows),
                   bits & columns);
@@ -260,7 +262,7 @@ StrokeCanvas::Box StrokeClipper::pixels_to_add(const StrokeCanvas& onto, bool kn
 StrokeClipper::Extent StrokeClipper::extent_of(const ClipPiece& boundary) {
     if (!boundary.occludes) return {};
     return {glm::min(boundary.from, boundary.to), glm::max(boundary.from, boundary.to),
-            std::min(boundary.depth_from_px, boundary.depth_to_px)};
+            std::min(boundary.depth_from_px, boundary.depth_to_px), boundary.cuts_below, boundary.drawn_width_px};
 }
 
 void StrokeClipper::set_boundaries(std::span<const ClipPiece* const> boundaries) {
@@ -274,6 +276,25 @@ void StrokeClipper::set_boundaries(std::span<const ClipPiece* const> boundaries)
     cells_.set(ends_, glm::dvec2(x0_, y0_) + 0.5 * glm::dvec2(width_, height_));
     asked_.assign(boundaries.size(), 0);
     stroke_count_ = 0;
+}
+
+StrokeClipper::Reach::Reach(const ClipPiece& piece, double radius_px, StrokeSide side)
+    : low(glm::min(piece.from, piece.to) - radius_px),
+      high(glm::max(piece.from, piece.to) + radius_px),
+      depth_px(std::max(piece.depth_from_px, piece.depth_to_px) - kFartherPx),
+      rank(piece.rank),
+      width_px(piece.width_px),
+      has_side(side != StrokeSide::both) {}
+
+bool StrokeClipper::may_cut(const ClipPiece& piece, double radius_px, StrokeSide side) const {
+    if (side != StrokeSide::both) return true;
+    const Reach reach(piece, radius_px, side);
+    const BoundaryCells::Box middle = cells_.cells_of({piece.from, piece.to});
+    bool may = false;
+    for (int ring = 0; !may && !cells_.is_beyond(middle, ring) && BoundaryCells::distance_px(ring - 1) <= radius_px;
+         ++ring)
+        cells_.for_ring(middle, ring, [&](std::uint32_t i) { may = may || reach.has(extents_[i]); });
+    return may;
 }
 
 /// Whether a boundary may lie on a straight way from the nearest point of a piece to the stroke's rows and columns.
@@ -296,18 +317,12 @@ bool StrokeClipper::is_between(const ClipPiece& boundary, const Frame& frame) co
 /// Adds the shadows of the boundaries that are `ring` cells away.
 void StrokeClipper::find_shadows(int ring, const ClipPiece& piece, const Frame& frame, double radius_px,
                                  StrokeSide side) {
-    const glm::dvec2 low = glm::min(piece.from, piece.to) - radius_px,
-                     high = glm::max(piece.from, piece.to) + radius_px;
-    const double depth_px = std::max(piece.depth_from_px, piece.depth_to_px) - kFartherPx;
-    const auto may_hide = [&](const Extent& e) {
-        if (e.low.x > high.x || e.low.y > high.y || e.high.x < low.x || e.high.y < low.y) return false;
-        return side != StrokeSide::both || e.depth_px < depth_px;  // on one side its own neighbours bound it, too
-    };
+    const Reach reach(piece, radius_px, side);
     cells_.for_ring(cells_.cells_of({piece.from, piece.to}), ring, [&](std::uint32_t i) {
         if (asked_[i] == stroke_count_) return;
         asked_[i] = stroke_count_;
         ++comparison_count_;
-        if (!may_hide(extents_[i])) return;
+        if (!reach.has(extents_[i])) return;
         const ClipPiece& boundary = *boundaries_[i];
         if (&boundary == &piece || (!cells_.is_one() && !is_between(boundary, frame))) return;
         add_shadows(boundary, piece, frame, radius_px, side);
@@ -376,7 +391,9 @@ void StrokeClipper::draw_with(const ClipPiece& piece, double radius_px, StrokeSi
     ++stroke_count_;
     if (cells_.is_one()) {
         find_shadows(0, piece, frame, radius_px, side);
-        if (shadows_.empty() && side == StrokeSide::both) {
+        // Before a surface is entered there is none to come out of.
+        const bool enters = std::any_of(shadows_.begin(), shadows_.end(), [](const Shadow& s) { return s.enters; });
+        if (!enters && side == StrokeSide::both) {
             draw_pen(onto);
             return;
         }

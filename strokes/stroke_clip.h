@@ -19,6 +19,13 @@ struct ClipPiece {
     double depth_from_px = 0, depth_to_px = 0;  ///< in pixels' widths; only differences mean anything
     bool occludes = false;                      ///< a surface in front ends here
     bool front_on_left = false;                 ///< of the way, as seen on the screen: where that surface is
+    /// Of a boundary: of strokes on both sides it cuts those of ranks below this one, and those that are wider than
+    /// what is drawn along it. Others are covered by that.
+    std::uint32_t cuts_below = std::numeric_limits<std::uint32_t>::max();
+    float drawn_width_px = std::numeric_limits<float>::infinity();
+    /// Of a stroke.
+    std::uint32_t rank = 0;
+    float width_px = 0;
 };
 
 /// StrokeClipper draws strokes on one side of a line only, and cuts off what would lie over nearer surfaces.
@@ -34,6 +41,9 @@ class StrokeClipper {
     void reset(int x0, int y0, int width, int height);
     /// Sets what may hide strokes from now on, in the rectangle of the last reset(). The boundaries must outlive that.
     void set_boundaries(std::span<const ClipPiece* const> boundaries);
+
+    /// Whether any boundary may cut the stroke along `piece`: draw() draws it whole if none may.
+    bool may_cut(const ClipPiece& piece, double radius_px, StrokeSide side) const;
 
     /// Adds the stroke along `piece` to a canvas of the same rectangle. Boundaries that are farther away than
     /// the radius, or `piece` itself, change nothing.
@@ -66,6 +76,22 @@ class StrokeClipper {
     struct Extent {
         glm::dvec2 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
         double depth_px = 0;  ///< of its nearest end
+        std::uint32_t cuts_below = 0;
+        float drawn_width_px = 0;
+    };
+    /// What of the screen, and how deep, boundaries must have to hide a part of a stroke.
+    struct Reach {
+        glm::dvec2 low, high;
+        double depth_px;
+        std::uint32_t rank;
+        float width_px;
+        bool has_side;
+        Reach(const ClipPiece& piece, double radius_px, StrokeSide side);
+        bool has(const Extent& e) const {
+            return e.low.x <= high.x && e.low.y <= high.y && e.high.x >= low.x && e.high.y >= low.y &&
+                   // On one side its own neighbours bound it, too.
+                   (has_side || (e.depth_px < depth_px && (rank < e.cuts_below || e.drawn_width_px < width_px)));
+        }
     };
     class Frame;
 
