@@ -325,6 +325,7 @@ ClipPiece InkTile::clip_piece(const Placed& placed) const {
         from.occludes, from.front_on_left};
     piece.rank = placed.ref.rank;
     piece.width_px = std::max(from.width_px, to.width_px);
+    piece.is_cut_by_all = lines_.strokes[placed.ref.stroke].side != StrokeSide::both;
     return piece;
 }
 

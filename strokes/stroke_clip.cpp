@@ -284,7 +284,8 @@ StrokeClipper::Reach::Reach(const ClipPiece& piece, double radius_px, StrokeSide
       depth_px(std::max(piece.depth_from_px, piece.depth_to_px) - kFartherPx),
       rank(piece.rank),
       width_px(piece.width_px),
-      has_side(side != StrokeSide::both) {}
+      has_side(side != StrokeSide::both),
+      is_cut_by_all(piece.is_cut_by_all) {}
 
 bool StrokeClipper::may_cut(const ClipPiece& piece, double radius_px, StrokeSide side) const {
     if (side != StrokeSide::both) return true;

@@ -26,6 +26,7 @@ struct ClipPiece {
     /// Of a stroke.
     std::uint32_t rank = 0;
     float width_px = 0;
+    bool is_cut_by_all = false;  ///< also by boundaries that would not cut it by its rank and width
 };
 
 /// StrokeClipper draws strokes on one side of a line only, and cuts off what would lie over nearer surfaces.
@@ -85,12 +86,13 @@ class StrokeClipper {
         double depth_px;
         std::uint32_t rank;
         float width_px;
-        bool has_side;
+        bool has_side, is_cut_by_all;
         Reach(const ClipPiece& piece, double radius_px, StrokeSide side);
         bool has(const Extent& e) const {
             return e.low.x <= high.x && e.low.y <= high.y && e.high.x >= low.x && e.high.y >= low.y &&
                    // On one side its own neighbours bound it, too.
-                   (has_side || (e.depth_px < depth_px && (rank < e.cuts_below || e.drawn_width_px < width_px)));
+                   (has_side ||
+                    (e.depth_px < depth_px && (is_cut_by_all || rank < e.cuts_below || e.drawn_width_px < width_px)));
         }
     };
     class Frame;
