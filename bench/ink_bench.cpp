@@ -21,7 +21,7 @@
 namespace burin::bench {
 namespace {
 
-enum class Look { constant, translucent, varying };
+enum class Look { constant, translucent, width, varying };
 
 /// A sheet that draws the lines that are found without one. Varying ink changes evenly along a line, as a look that
 /// depends on depth or light.
@@ -35,13 +35,12 @@ std::shared_ptr<const StyleSheet> sheet_of(Look look, double width_px) {
         "style = \"ink\"\n"
         "classes = [\"silhouette\", \"border\", \"crease\", \"intersection\", \"object\"]\n"
         "[style.ink]\n";
+    if (look == Look::varying || look == Look::width) text += "width = \"=" + width + " * (0.6 + 0.8 * wave)\"\n";
     if (look == Look::varying) {
-        text += "width = \"=" + width + " * (0.6 + 0.8 * wave)\"\n";
         text += "opacity = \"=0.5 + 0.5 * wave\"\ncolor = \"=rgb(0.3 * wave, 0, 0)\"\n";
-    } else {
-        text += "width = " + width + "\n";
-        if (look == Look::translucent) text += "opacity = 0.5\n";
     }
+    if (look == Look::constant || look == Look::translucent) text += "width = " + width + "\n";
+    if (look == Look::translucent) text += "opacity = 0.5\n";
     return std::make_shared<const StyleSheet>(read_sheet_text(text, "sheet"));
 }
 
@@ -93,7 +92,7 @@ std::string measure(const std::string& model, int width, int height, int runs) {
             return made;
         };
         const auto constant = styled(Look::constant), translucent = styled(Look::translucent),
-                   varying = styled(Look::varying);
+                   wide = styled(Look::width), varying = styled(Look::varying);
         const auto shade = [](const Styled& s) {
             return [&s](Film&) {
                 std::vector<std::string> notes;
@@ -105,6 +104,7 @@ std::string measure(const std::string& model, int width, int height, int runs) {
         cases.push_back({"shade_varying", shade(*varying), {}});
         cases.push_back({"constant", draw(*constant), {}});
         cases.push_back({"translucent", draw(*translucent), {}});
+        cases.push_back({"varying_width", draw(*wide), {}});
         cases.push_back({"varying", draw(*varying), {}});
         for (int run = -1; run < runs; ++run) {  // run -1 warms up
             for (Case& c : cases) {
@@ -118,11 +118,12 @@ std::string measure(const std::string& model, int width, int height, int runs) {
         json.key("strokes").value(static_cast<std::uint64_t>(varying->ink.strokes.size()));
         json.key("samples").value(static_cast<std::uint64_t>(varying->ink.points.size()));
         for (const Case& c : cases) write_samples(json, c.name + "_cpu_s", c.cpu);
-        const Samples &of_frame = cases[0].cpu, &of_varying = cases[6].cpu;
+        const Samples &of_frame = cases[0].cpu, &of_varying = cases[7].cpu;
         Samples more;
         for (std::size_t run = 0; run < of_frame.size(); ++run) more.add(cases[3].cpu[run] - cases[2].cpu[run]);
         write_ratio(json, "expressions_per_frame", more, of_frame);
         write_ratio(json, "constant_per_one_look", cases[4].cpu, cases[1].cpu);
+        write_ratio(json, "varying_width_per_constant", cases[6].cpu, cases[4].cpu);
         write_ratio(json, "varying_per_constant", of_varying, cases[4].cpu);
         write_ratio(json, "varying_per_translucent", of_varying, cases[5].cpu);
         json.end_object();

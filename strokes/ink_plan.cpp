@@ -5,6 +5,22 @@
 #include "strokes/ink_tile.h"
 
 namespace burin {
+namespace {
+
+/// Whether a stroke is opaque ink of one colour that covers all that it reaches, whatever its width is on the way:
+/// never as thin as masks cannot show, or of a width that they show a little too wide and lighter.
+bool covers(std::span<const InkPoint> points, StrokeSide side) {
+    const InkPoint* before = nullptr;
+    for (const InkPoint& p : points) {
+        if (p.opacity != 1 || p.color != points.front().color) return false;
+        const bool is_level = before != nullptr && before->width_px == p.width_px;
+        if (is_level ? Pen(p.width_px, side).strength != 1 : InkSegment::is_thin(p.width_px, side)) return false;
+        before = &p;
+    }
+    return true;
+}
+
+}  // namespace
 
 InkPlan plan_of(const InkedLines& lines) {
     InkPlan plan;
@@ -28,12 +44,13 @@ InkPlan plan_of(const InkedLines& lines) {
         look.rank = is_as_before ? plan.looks[plan.looks.size() - 2].rank : ranks.find(stroke.order)->second;
         const auto points = lines.points_of(stroke);
         const InkPoint& first = points.front();
-        look.is_plain = stroke.is_constant && stroke.blend == InkBlend::over && first.opacity == 1;
+        const Pen pen(first.width_px, drawn_side(stroke));
+        look.is_plain = stroke.blend == InkBlend::over &&
+                        (stroke.is_constant ? first.opacity == 1 : covers(points, drawn_side(stroke)));
         if (look.is_plain) {
             look.color = first.color;
+            if (stroke.is_constant) look.strength = pen.strength;
         }
-        const Pen pen(first.width_px, drawn_side(stroke));
-        if (look.is_plain) look.strength = pen.strength;
         plan.pen_radius_px.push_back(static_cast<float>(pen.radius_px));
         float width_px = first.width_px;
         if (!stroke.is_constant) {

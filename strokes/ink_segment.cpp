@@ -6,11 +6,15 @@
 
 namespace burin {
 
+float InkSegment::finest_px(StrokeSide side) {
+    return static_cast<float>(Pen::kFinestWidthPx * (side == StrokeSide::both ? 1 : 2));
+}
+
 InkSegment::InkSegment(const InkPoint& from, const InkPoint& to, StrokeSide side)
     : from_(&from), to_(&to), along_(to.place - from.place) {
     const double square = glm::dot(along_, along_);
     per_square_ = square > 0 ? 1 / square : 0;
-    finest_px_ = static_cast<float>(Pen::kFinestWidthPx * (side == StrokeSide::both ? 1 : 2));
+    finest_px_ = finest_px(side);
     if (std::max(from.opacity, to.opacity) <= 0 || std::max(from.width_px, to.width_px) <= 0) return;
     const auto add = [&](double first, double last, double radius_from, double radius_to, bool is_thin) {
         const glm::dvec2 a = first == 0 ? from.place : from.place + first * along_,
@@ -45,7 +49,10 @@ void InkSegment::cut(glm::dvec2 place, glm::dvec2 outward) {
     }
 }
 
-bool InkSegment::is_constant() const { return has_one_ink(*from_, *to_); }
+bool InkSegment::changes_ink(const Part& part) const {
+    if (from_->opacity != to_->opacity || from_->color != to_->color) return true;
+    return part.is_thin && from_->width_px != to_->width_px;
+}
 
 float InkSegment::share_nearest(glm::dvec2 place) const {
     return static_cast<float>(std::clamp(glm::dot(place - from_->place, along_) * per_square_, 0.0, 1.0));

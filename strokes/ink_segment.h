@@ -20,13 +20,16 @@ class InkSegment {
 
     InkSegment(const InkPoint& from, const InkPoint& to, StrokeSide side);
 
+    /// Whether masks show a width only as a wider stroke of lighter ink.
+    static bool is_thin(float width_px, StrokeSide side) { return width_px < finest_px(side); }
+
     /// One cone, or two where the stroke becomes thin on the way. None where there is no ink.
     std::span<const Part> parts() const { return {parts_.data(), part_count_}; }
     /// Cuts off what lies beyond the end of the stroke at `place`, along its direction there.
     void cut(glm::dvec2 place, glm::dvec2 outward);
     double radius_px() const { return radius_px_; }
-    /// Whether width, opacity and colour do not change.
-    bool is_constant() const;
+    /// Whether the ink changes along a part, and not its width alone.
+    bool changes_ink(const Part& part) const;
 
     /// The share of the way at which it is nearest to a place.
     float share_nearest(glm::dvec2 place) const;
@@ -39,6 +42,8 @@ class InkSegment {
     const InkPoint& to() const { return *to_; }
 
   private:
+    static float finest_px(StrokeSide side);
+
     const InkPoint *from_, *to_;
     glm::dvec2 along_;
     double per_square_;   // 1 / length squared, 0 for a dot

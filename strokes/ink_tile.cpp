@@ -1,6 +1,7 @@
 #include "strokes/ink_tile.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -160,14 +161,16 @@ void InkTile::draw_layer(std::span<const InkSegmentRef> segments) {
         throw_if_interrupted();
         if (owners_ != nullptr) tell_owner(ref);
         const bool may_be_cut = may_be_clipped(ref);
-        if (!may_be_cut && lines_.strokes[ref.stroke].caps == StrokeCaps::round) {  // mostly
+        const InkStroke& own = lines_.strokes[ref.stroke];
+        if (!may_be_cut && own.is_constant && own.caps == StrokeCaps::round) {  // mostly
             canvas.draw(lines_.points[ref.point].place, lines_.points[ref.point + 1].place,
                         static_cast<double>(plan_.pen_radius_px[ref.stroke]));
             continue;
         }
         const Placed placed{ref, segment_of(ref)};
+        const bool is_cut = may_be_cut && is_clipped(placed);
         for (const InkSegment::Part& part : placed.segment.parts()) {
-            if (may_be_cut) {
+            if (is_cut) {
                 draw_clipped(placed, part.cone, canvas);
             } else {
                 canvas.draw(part.cone);
@@ -192,26 +195,37 @@ void InkTile::tell_owner(const InkSegmentRef& ref) {
 void InkTile::draw_chain(std::span<const InkSegmentRef> segments) {
     throw_if_interrupted();
     placed_.clear();
-    bool has_changes = false, has_thin = false, has_others = false;
+    std::array<bool, 2> has_parts{}, has_changes{};  // that are not thin, and that are
     for (const InkSegmentRef& ref : segments) {
         const Placed& placed = placed_.emplace_back(Placed{ref, segment_of(ref)});
-        has_changes = has_changes || !placed.segment.is_constant();
-        for (const InkSegment::Part& part : placed.segment.parts()) (part.is_thin ? has_thin : has_others) = true;
+        for (const InkSegment::Part& part : placed.segment.parts()) {
+            const std::size_t k = part.is_thin ? 1 : 0;
+            has_parts[k] = true;
+            has_changes[k] = has_changes[k] || has_body_first(placed, part);
+        }
     }
     chain_begin_ = records_.size();
     // Bodies come before discs, so that ink changes evenly along the stroke and not in steps as wide as the pen; what
     // is thin comes last: its ink is light, and would keep darker ink of the same chain away.
     for (const bool is_thin : {false, true}) {
-        if (!(is_thin ? has_thin : has_others)) continue;
+        const std::size_t k = is_thin ? 1 : 0;
+        if (!has_parts[k]) continue;
         cut_masks_.clear();
         cut_ends_.clear();
-        if (has_changes) draw_parts(is_thin, true);
+        if (has_changes[k]) draw_parts(is_thin, true);
         draw_parts(is_thin, false);
     }
     for (std::size_t i = chain_begin_; i < records_.size(); ++i) record_at_[records_[i].pixel] = 0;
     const auto own = records_.begin() + static_cast<std::ptrdiff_t>(chain_begin_);
     records_.erase(std::remove_if(own, records_.end(), [](const InkRecord& r) { return !(r.alpha > 0); }),
                    records_.end());
+}
+
+/// Whether it matters which of a part and its neighbours the samples of a pixel come from: for its ink, or for the
+/// depth that halos of others ask for.
+bool InkTile::has_body_first(const Placed& placed, const InkSegment::Part& part) const {
+    return placed.segment.changes_ink(part) ||
+           (plan_.most_halo_px > 0 && !has_one_ink(placed.segment.from(), placed.segment.to()));
 }
 
 void InkTile::draw_parts(bool is_thin, bool body_only) {
@@ -223,17 +237,18 @@ void InkTile::draw_parts(bool is_thin, bool body_only) {
     std::size_t next_part = 0;
     const PenCone* before = nullptr;  // what is drawn whole, with both discs
     for (const Placed& placed : placed_) {
-        if (body_only && placed.segment.is_constant()) continue;
         throw_if_interrupted();
         const bool is_cut = is_clipped(placed);
         if (is_cut) before = nullptr;
         for (const InkSegment::Part& part : placed.segment.parts()) {
             if (part.is_thin != is_thin) continue;
+            const bool changes = has_body_first(placed, part);
+            if (body_only && !changes) continue;
             PenCone cone = part.cone;
             cone.body_only = body_only;
             if (!is_cut) {
                 const auto use = [&](int column, int row, const StrokeMask& mask) { take(placed, column, row, mask); };
-                if (body_only || placed.segment.is_constant()) {
+                if (body_only || !changes) {
                     one_.draw(kernels_, cone, rect_, use);
                 } else {  // its body is there already
                     const bool has_first = before == nullptr || !ends_where_begins(*before, part.cone);
@@ -250,7 +265,7 @@ void InkTile::draw_parts(bool is_thin, bool body_only) {
                     for (std::size_t r = 0; r < mask.rows.size(); ++r) mask.rows[r] &= left.rows[r];
                     take(placed, column, row, mask);
                 });
-            } else if (placed.segment.is_constant()) {
+            } else if (!changes) {
                 use_cut(placed, part,
                         [&](int column, int row, const StrokeMask& mask) { take(placed, column, row, mask); });
             } else {  // as when its body was drawn

@@ -24,14 +24,14 @@ struct InkPlan {
     /// Opaque strokes of one ink, one look for all of them.
     struct Look {
         std::uint32_t rank = 0;  ///< of the order, 0 lies on top
-        bool is_plain = false;   ///< constant, opaque, and covers
+        bool is_plain = false;   ///< opaque, of one colour, and covers
         glm::vec3 color{0.0f};
         float strength = 1;  ///< of a plain one: the share of each sample
         bool operator==(const Look&) const = default;
     };
     std::vector<InkOrder> orders;      ///< by rank
     std::vector<Look> looks;           ///< of each stroke
-    std::vector<float> pen_radius_px;  ///< of each stroke, of plain ones
+    std::vector<float> pen_radius_px;  ///< of each stroke of constant width
     /// Of each boundary: strokes of lower ranks are hidden by it.
     std::vector<std::uint32_t> hides_below;
     double most_radius_px = 0;  ///< of all strokes
@@ -240,6 +240,7 @@ class InkTile {
     void draw_layer(std::span<const InkSegmentRef> segments);
     void tell_owner(const InkSegmentRef& ref);
     void draw_chain(std::span<const InkSegmentRef> segments);
+    bool has_body_first(const Placed& placed, const InkSegment::Part& part) const;
     void draw_parts(bool is_thin, bool body_only);
     bool may_be_clipped(const InkSegmentRef& ref) const;
     bool is_clipped(const Placed& placed) const;
