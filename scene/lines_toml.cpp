@@ -1,6 +1,8 @@
 #include "scene/lines_toml.h"
 
+#include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mesh/text_scan.h"
@@ -60,6 +62,30 @@ void read_hidden(TomlReader& t, HiddenLineStyle& hidden) {
     t.finish();
 }
 
+/// What of a sheet says what a key of [lines] says: "[style.ink] width says it".
+std::string what_says_it(std::string_view key, const StyleSheet& sheet) {
+    if (key == "hidden") {
+        for (const LineSet& set : sheet.sets) {
+            if (set.is_enabled && set.qi[1] > 0)
+                return "the set '" + set.name + "' draws hidden lines in [style." + sheet.styles[set.style].name + "]";
+        }
+        return "a set with qi = [1, 255] would draw hidden lines";
+    }
+    // All styles of visible lines, in the order of the sets; at most three are named.
+    std::vector<std::size_t> styles;
+    for (const LineSet& set : sheet.sets) {
+        const bool is_new = std::find(styles.begin(), styles.end(), set.style) == styles.end();
+        if (set.is_enabled && set.qi[0] == 0 && is_new) styles.push_back(set.style);
+    }
+    const std::string its_key = key == "colors" ? "color" : std::string(key);
+    if (styles.empty()) return its_key + " of its styles says it";
+    std::string names;
+    for (std::size_t i = 0; i < std::min<std::size_t>(styles.size(), 3); ++i)
+        names += (i > 0 ? ", [style." : "[style.") + sheet.styles[styles[i]].name + "] " + its_key;
+    if (styles.size() > 3) names += ", ...";
+    return names + (styles.size() > 1 ? " say it" : " says it");
+}
+
 }  // namespace
 
 std::optional<std::array<double, 2>> read_crease_angle(TomlReader& t) {
@@ -105,13 +131,14 @@ LineSettings read_line_settings(TomlReader& t) {
     return lines;
 }
 
-std::vector<std::string> keys_beside_sheet(const TomlReader& t, bool may_have_looks) {
+std::vector<std::string> keys_beside_sheet(const TomlReader& t, const StyleSheet& sheet, bool may_have_looks) {
     std::vector<std::string> unread;
     if (t.has("draw")) unread.emplace_back("draw");
     for (const char* const key : {"width", "color", "colors", "dash", "side", "hidden"}) {
         if (!t.has(key)) continue;
         if (!may_have_looks)
-            t.fail(key, "cannot stand beside a style sheet, which says how lines look; remove one of the two");
+            t.fail(key,
+                   "cannot stand beside a style sheet, where " + what_says_it(key, sheet) + "; remove one of the two");
         unread.emplace_back(key);
     }
     return unread;

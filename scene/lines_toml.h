@@ -7,6 +7,7 @@
 
 #include "scene/scene.h"
 #include "scene/toml_reader.h"
+#include "shading/sheet/style_sheet.h"
 
 // The table [lines] of a scene file is read here.
 
@@ -14,9 +15,9 @@ namespace burin {
 
 LineSettings read_line_settings(TomlReader& lines);
 
-/// The keys of [lines] that nothing reads beside a style sheet. Those that say how lines look are errors unless
-/// `may_have_looks`.
-std::vector<std::string> keys_beside_sheet(const TomlReader& lines, bool may_have_looks);
+/// The keys of [lines] that nothing reads beside a style sheet. Those that say how lines look are errors, which name
+/// the key of the sheet that says it, unless `may_have_looks`.
+std::vector<std::string> keys_beside_sheet(const TomlReader& lines, const StyleSheet& sheet, bool may_have_looks);
 
 // Keys that [lines] and style sheets have in common.
 

@@ -334,7 +334,7 @@ class SceneReader {
         if (!sheet) return;
         // A sheet of the command line takes the place of all looks of the scene.
         if (const auto lines = root_.table("lines"))
-            scene_.unread_line_keys = keys_beside_sheet(*lines, !wishes_.style.empty());
+            scene_.unread_line_keys = keys_beside_sheet(*lines, *sheet, !wishes_.style.empty());
         use_sheet(scene_, std::make_shared<StyleSheet>(*std::move(sheet)));
     }
 

@@ -205,17 +205,43 @@ TEST_F(Styles, TakeThePlaceOfLooksOrRefuseThem) {
     EXPECT_EQ(one.err,
               "burin: note: the style sheet says which lines are drawn and how; lines.width changes nothing\n");
     EXPECT_EQ(render({"--style", "mine.toml", "-q"}, "plain.toml").err, "");
-    for (const std::string& key :
-         {std::string("width = 3"), std::string("color = \"#ff0000\""), std::string("dash = [3, 3]"),
-          std::string("side = \"inside\""), std::string("colors = { crease = \"#ff0000\" }"),
-          std::string("hidden = { style = \"solid\" }")}) {
-        folder_.write("both.toml", "style = \"mine.toml\"\n[lines]\n" + key + "\n[[object]]\nfile = \"cube.obj\"\n");
+    const std::pair<std::string, std::string> looks[] = {
+        {"width = 3", "[style.ink] width says it"},
+        {"color = \"#ff0000\"", "[style.ink] color says it"},
+        {"dash = [3, 3]", "[style.ink] dash says it"},
+        {"side = \"inside\"", "[style.ink] side says it"},
+        {"colors = { crease = \"#ff0000\" }", "[style.ink] color says it"},
+        {"hidden = { style = \"solid\" }", "the set 'behind' draws hidden lines in [style.ink]"}};
+    const auto refusal_of = [&](const std::string& key, const std::string& sheet) {
+        folder_.write("both.toml",
+                      "style = \"" + sheet + "\"\n[lines]\n" + key + "\n[[object]]\nfile = \"cube.obj\"\n");
         const ProgramResult both = render({}, "both.toml");
         EXPECT_EQ(both.status, 1) << key;
         EXPECT_EQ(both.err.find("both.toml:3:"), 0u) << both.err;
-        EXPECT_NE(both.err.find("cannot stand beside a style sheet"), std::string::npos) << both.err;
+        EXPECT_TRUE(is_one_line(both.err)) << both.err;
+        return both.err;
+    };
+    for (const auto& [key, words] : looks) {
+        const std::string error = refusal_of(key, "mine.toml");
+        const std::string name = key.substr(0, key.find(' '));
+        EXPECT_NE(
+            error.find("[lines] " + name + ": cannot stand beside a style sheet, where " + words + "; remove one"),
+            std::string::npos)
+            << error;
         EXPECT_EQ(render({"--style", "mine.toml", "-q"}, "both.toml").status, 0) << key;
     }
+    // The styles of visible lines are named, three at most.
+    std::string many = "style_version = 1\n";
+    for (const std::string style : {"a", "b", "c", "d"}) {
+        many += "[[set]]\nname = \"" + style + "\"\nclasses = [\"crease\"]\nstyle = \"" + style + "\"\n";
+        folder_.write(style + ".toml", many + "[style.a]\n[style.b]\n[style.c]\n[style.d]\n");
+    }
+    EXPECT_NE(refusal_of("width = 3", "b.toml").find("where [style.a] width, [style.b] width say it;"),
+              std::string::npos);
+    EXPECT_NE(refusal_of("side = \"inside\"", "d.toml").find("[style.c] side, ... say it;"), std::string::npos);
+    EXPECT_NE(
+        refusal_of("hidden = { style = \"solid\" }", "d.toml").find("a set with qi = [1, 255] would draw hidden lines"),
+        std::string::npos);
     // What says what is found may stand in [lines].
     folder_.write("both.toml", "style = \"mine.toml\"\n[lines]\ncrease_angle = 91\n[[object]]\nfile = \"cube.obj\"\n");
     EXPECT_EQ(picture({}, "both.toml"), picture({"--style", "mine.toml", "--crease-angle", "91"}));
