@@ -335,6 +335,7 @@ InkedLines ink_lines(const FoundLines& found, const CompiledSheet& sheet, int th
     }
     add_ink_along(parts, boundaries, inked);
     for (std::string& note : sheet.notes_on_names()) notes.push_back(std::move(note));
+    for (std::string& note : sheet.notes_on_wobble()) notes.push_back(std::move(note));
     add_notes_on_numbers(sheet, chunks, parts, notes);
     return inked;
 }

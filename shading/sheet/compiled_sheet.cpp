@@ -153,4 +153,20 @@ std::vector<std::string> CompiledSheet::notes_on_names() const {
     return notes;
 }
 
+std::vector<std::string> CompiledSheet::notes_on_wobble() const {
+    std::vector<std::string> notes;
+    for (std::size_t i = 0; i < styles_.size(); ++i) {
+        const CompiledStyle& style = styles_[i];
+        if (!style.has_wobble || style.wobble_anchor != WobbleAnchor::chain) continue;
+        const bool draws_contours = std::any_of(sets_.begin(), sets_.end(), [&](const CompiledSet& set) {
+            return set.is_enabled && set.style == i && set.classes.has(LineClass::silhouette);
+        });
+        if (!draws_contours) continue;
+        notes.push_back("style " + style.name +
+                        ": wobble with anchor = \"chain\" makes contours jump from frame to frame, for they begin "
+                        "elsewhere in each view; anchor = \"object\" keeps the waves where they are");
+    }
+    return notes;
+}
+
 }  // namespace burin

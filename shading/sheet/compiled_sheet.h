@@ -159,6 +159,8 @@ class CompiledSheet {
     /// A note for each set that draws nothing since none of the picture's names fits its patterns, and for each group
     /// that is empty for the same reason.
     std::vector<std::string> notes_on_names() const;
+    /// A note for each style whose wobble jumps as the view changes.
+    std::vector<std::string> notes_on_wobble() const;
 
     /// The class that a piece is drawn as: of its classes, the first one that any enabled set asks for.
     std::optional<LineClass> class_of(LineClassSet classes) const { return (classes & needs_.classes).first(); }

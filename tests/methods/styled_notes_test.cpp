@@ -59,5 +59,32 @@ TEST(StyledNotes, NameGroupsThatFitNothing) {
     EXPECT_TRUE(CompiledSheet(sheet, context).notes_on_names().empty());
 }
 
+TEST(StyledNotes, SayThatWobbleOfContoursJumps) {
+    const auto notes_of = [](const std::string& classes, const std::string& wobble, const std::string& set = "") {
+        return notes_on({{rectangle(20, 20, 60, 60, 0)},
+                         pixel_camera(80, 80),
+                         sheet_of(classes, "wobble = { " + wobble + " }", set),
+                         80,
+                         80});
+    };
+    const std::string contours = R"("crease", "silhouette")", others = R"("crease", "border", "intersection")";
+    const std::vector<std::string> notes = notes_of(contours, "anchor = \"chain\"");
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_EQ(notes[0],
+              "style ink: wobble with anchor = \"chain\" makes contours jump from frame to frame, for they begin "
+              "elsewhere in each view; anchor = \"object\" keeps the waves where they are");
+    EXPECT_TRUE(notes_of(contours, "anchor = \"object\"").empty());
+    EXPECT_TRUE(notes_of(contours, "amplitude = 2").empty());
+    EXPECT_TRUE(notes_of(contours, "anchor = \"chain\", amplitude = 0").empty());
+    EXPECT_TRUE(notes_of(others, "anchor = \"chain\"").empty());
+    EXPECT_TRUE(notes_of(contours, "anchor = \"chain\"", "enabled = false\n").empty());
+    // Two sets with one style: one note.
+    const std::string twice =
+        "style_version = 1\n[[set]]\nname = \"a\"\nclasses = [\"silhouette\"]\nstyle = \"ink\"\n"
+        "[[set]]\nname = \"b\"\nclasses = [\"silhouette\"]\nqi = 1\nstyle = \"ink\"\n"
+        "[style.ink]\nwobble = { anchor = \"chain\" }\n";
+    EXPECT_EQ(notes_on({{rectangle(20, 20, 60, 60, 0)}, pixel_camera(80, 80), twice, 80, 80}).size(), 1u);
+}
+
 }  // namespace
 }  // namespace burin::styled_notes_test
