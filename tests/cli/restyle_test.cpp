@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/sheet_library.h"
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -18,8 +19,10 @@ ProgramResult run_in(const TemporaryFolder& folder, Arguments arguments, const A
 }
 
 TEST(Restyle, EqualsARenderToTheBit) {
+    ASSERT_GE(built_in_sheets().size(), 9u);
     for (const char* const scene : {"still_life.toml", "crossing.toml", "teapot.toml"}) {
-        for (const char* const style : {"pencil", "technical", "strata"}) {
+        for (const BuiltInSheet& sheet : built_in_sheets()) {
+            const std::string style(sheet.name);
             for (const Arguments& crop : {Arguments{}, Arguments{"--crop", "40,30,110,80"}}) {
                 SCOPED_TRACE(std::string(scene) + " " + style + (crop.empty() ? "" : " crop"));
                 const TemporaryFolder folder;
@@ -28,7 +31,7 @@ TEST(Restyle, EqualsARenderToTheBit) {
                                     "-q",     "--save-lines",    "a.lines"};
                 render.insert(render.end(), layers.begin(), layers.end());
                 ASSERT_EQ(run_in(folder, render, crop).err, "");
-                Arguments restyle = {"restyle", "a.lines", "-o", "b.exr", "-j", "1"};
+                Arguments restyle = {"restyle", "a.lines", "-o", "b.exr", "-j", "1", "-q"};
                 restyle.insert(restyle.end(), layers.begin(), layers.end());
                 ASSERT_EQ(run_in(folder, restyle, crop).err, "");
                 EXPECT_TRUE(read_file(folder.file("a.exr")) == read_file(folder.file("b.exr")));

@@ -72,7 +72,8 @@ TEST(StyledKeys, BoilChangesRandomNumbersOfExpressions) {
         EXPECT_EQ(width(style, 0), width(style, 7)) << name;
         EXPECT_NE(width(style + "boil = true\n", 0), width(style + "boil = true\n", 7)) << name;
     }
-    EXPECT_EQ(width("width = \"=1 + x / 1000\"\nboil = true\n", 0), width("width = \"=1 + x / 1000\"\nboil = true\n", 7));
+    EXPECT_EQ(width("width = \"=1 + x / 1000\"\nboil = true\n", 0),
+              width("width = \"=1 + x / 1000\"\nboil = true\n", 7));
 }
 
 /// With pinned ends, wobble grows from nothing over half a wavelength; else ends move as any other place does.
@@ -95,8 +96,8 @@ TEST(StyledKeys, EndsThatAreNotPinnedMove) {
 TEST(StyledKeys, OctavesAreSumsOfShorterWaves) {
     for (const std::string anchor : {"object", "chain"}) {
         const auto wobble = [&](double wavelength, int octaves) {
-            return moves_of("amplitude = 8, wavelength = " + std::to_string(wavelength) + ", octaves = " +
-                            std::to_string(octaves) + ", pin = false, anchor = \"" + anchor + "\"");
+            return moves_of("amplitude = 8, wavelength = " + std::to_string(wavelength) +
+                            ", octaves = " + std::to_string(octaves) + ", pin = false, anchor = \"" + anchor + "\"");
         };
         const Moves whole = wobble(96, 1), half = wobble(48, 1), quarter = wobble(24, 1), two = wobble(96, 2),
                     three = wobble(96, 3);
