@@ -25,8 +25,9 @@ TEST(LineColumns, SlopesOfDepthAreThoseOfThePlane) {
     // z = 0.3 x + 0.2 y, in front of an eye that looks along -z: to the right it comes nearer, downwards it recedes.
     const auto at = [](double x, double y) { return glm::dvec3(x, y, 0.3 * x + 0.2 * y); };
     const auto on_screen = [&](const Camera& camera, double size) {
-        return ShadedScene({soup_of({at(-size, -size), at(size, -size), at(size, size), at(-size, size)}, {{0, 1, 2, 3}})},
-                           camera, all_of(R"("border")"), 120, 100);
+        return ShadedScene(
+            {soup_of({at(-size, -size), at(size, -size), at(size, size), at(-size, size)}, {{0, 1, 2, 3}})}, camera,
+            all_of(R"("border")"), 120, 100);
     };
     Camera level = pixel_camera(120, 100);
     level.to_world[3] = glm::dvec4(0, 0, 1000, 1);
@@ -86,7 +87,8 @@ TEST(LineColumns, BothSidesHaveTheirLight) {
 /// Of what is behind a contour, or 0 before the background.
 TEST(LineColumns, TheLightBehindAContourIsThatOfWhatIsSeenThere) {
     for (const bool has_wall : {true, false}) {
-        std::vector<PolygonSoup> objects{soup_of({{40, 30, 50}, {80, 30, 50}, {80, 70, 50}, {40, 70, 50}}, {{0, 1, 2, 3}})};
+        std::vector<PolygonSoup> objects{
+            soup_of({{40, 30, 50}, {80, 30, 50}, {80, 70, 50}, {40, 70, 50}}, {{0, 1, 2, 3}})};
         if (has_wall)  // its normal is (-0.6, 0, 0.8)
             objects.push_back(soup_of({{0, 0, -90}, {120, 0, 0}, {120, 100, 0}, {0, 100, -90}}, {{0, 1, 2, 3}}));
         const ShadedScene scene(std::move(objects), pixel_camera(120, 100),
