@@ -287,6 +287,22 @@ TEST(SurfaceShading, WhatIsNoNumberIsBlackAndNoted) {
     const Drawing d = drawn(kNoLines + "[surfaces]\ncolor = \"=rgb(1, 1, sqrt(0)/0 * 0)\"\n" + ball(32));
     EXPECT_EQ(d.at("R", 100, 100), 0);
     EXPECT_EQ(d.at("A", 100, 100), 1);
+    // A plate of which the columns to the left of 100 have no colour, seen in 20 x 20 pixels.
+    const auto notes_of = [&](const std::string& color, RenderFunction render) {
+        const Scene scene = loaded(kNoLines + "[surfaces]\ncolor = \"" + color + "\"\n[[object]]\nshape = \"plane\"\n" +
+                                   "size = [119, 119]\nrotate = [90, 0, 0]\ntranslate = [100, 100, 0]\n");
+        const Frame frame = make_frame(scene, pixel_camera(kSize, kSize), kSize, kSize, {95, 90, 115, 110});
+        Film film({0, 0, kSize, kSize}, frame.crop, {}, frame.criteria.classes);
+        return render(frame, {}, film).notes;
+    };
+    const std::string half = "=rgb(1, 1, x < 100 ? 0 / 0 : 1)", note = "[surfaces]: a value is not a number at ";
+    for (const RenderFunction render : {render_abuffer, render_reference}) {
+        const std::vector<std::string> notes = notes_of(half, render);
+        ASSERT_EQ(notes.size(), 1u);
+        EXPECT_TRUE(notes[0].starts_with(note) && notes[0].ends_with(" places on surfaces; there it is 0")) << notes[0];
+        EXPECT_GE(std::stoi(notes[0].substr(note.size())), 5 * 20);
+        EXPECT_TRUE(notes_of("=rgb(1, 1, x < 100 ? 0 : 1)", render).empty());
+    }
 }
 
 TEST(Lights, OfASceneAreThoseOfItsLines) {
