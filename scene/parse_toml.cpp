@@ -62,13 +62,17 @@ toml::table parse_toml(std::string_view text, const std::string& path) {
 }
 
 toml::table parse_checked_toml(std::string_view text, const std::string& path, const std::string& what,
-                               std::size_t most_bytes) {
+                               std::size_t most_bytes, std::size_t most_values) {
     if (text.size() > most_bytes) {
         const std::string most =
             most_bytes >= 1 << 20 ? std::to_string(most_bytes >> 20) + " MB" : std::to_string(most_bytes >> 10) + " kB";
         throw InputError(path + ": " + what + " of more than " + most + "; is it a model?");
     }
     if (const auto line = line_nested_too_deep(text)) throw InputError({path, *line}, kTomlTooDeep);
+    if (const auto line = most_values == 0 ? std::nullopt : line_with_too_many_values(text, most_values)) {
+        throw InputError({path, *line}, what + " of more than " + std::to_string(most_values / kValuesPerTable) +
+                                            " keys, tables and lists, or " + std::to_string(most_values) + " values");
+    }
     try {
         return parse_toml(text, path);
     } catch (const toml::parse_error& error) {

@@ -15,8 +15,8 @@ namespace burin {
 toml::table parse_toml(std::string_view text, const std::string& path);
 
 /// The same with all that is wrong thrown as InputError: a text that is longer than `most_bytes`, nested too deeply, or
-/// no TOML. `what`: "a scene file".
+/// no TOML. `what`: "a scene file". `most_values`: 0 is no limit; see line_with_too_many_values().
 toml::table parse_checked_toml(std::string_view text, const std::string& path, const std::string& what,
-                               std::size_t most_bytes);
+                               std::size_t most_bytes, std::size_t most_values = 0);
 
 }  // namespace burin

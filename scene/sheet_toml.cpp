@@ -150,7 +150,7 @@ class SheetReader {
 }  // namespace
 
 StyleSheet read_sheet_text(std::string_view text, const std::string& name, const std::vector<Override>& overrides) {
-    toml::table root = parse_checked_toml(text, name, "a style sheet", kMaxSheetBytes);
+    toml::table root = parse_checked_toml(text, name, "a style sheet", kMaxSheetBytes, kMaxSheetValues);
     for (const Override& o : overrides) apply_sheet_override(root, o);
     return SheetReader(TomlReader(root, "", name, kSheetPage), name).read();
 }

@@ -10,7 +10,9 @@
 
 namespace burin {
 
-constexpr std::size_t kMaxSheetBytes = 1 << 23;
+// So that no sheet takes long to read.
+constexpr std::size_t kMaxSheetBytes = 1 << 21;
+constexpr std::size_t kMaxSheetValues = 120000;  ///< in lists; a key, a table or a list counts as four
 
 /// Reads a style sheet (docs/shading/sheets.md). `overrides`: those of --set whose keys begin with "style.": of a
 /// parameter, of a style's key, or of any other value. Throws InputError with line and column, UsageError for an

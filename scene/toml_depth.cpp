@@ -1,6 +1,7 @@
 #include "scene/toml_depth.h"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "base/interrupt.h"
@@ -10,8 +11,10 @@ namespace {
 
 class DepthScanner {
   public:
-    explicit DepthScanner(std::string_view text) : text_(text) {}
+    DepthScanner(std::string_view text, std::size_t most_depth, std::size_t most_values)
+        : text_(text), most_depth_(most_depth), most_values_(most_values) {}
 
+    /// The first line on which there is too much.
     std::optional<std::size_t> run() {
         bool is_line_start = true;  // but for blanks
         for (std::size_t i = 0; i < text_.size();) {
@@ -36,9 +39,10 @@ class DepthScanner {
                 if (c == '[' && is_line_start) is_header_ = true;
                 if (!is_header_) bracket(c);
                 if (c == '.') ++dots_;
+                count(c);
             }
             if (c != ' ' && c != '\t') is_line_start = false;
-            if (depth() > kMaxTomlDepth) return line_;
+            if (depth() > most_depth_ || values_ > most_values_) return line_;
         }
         return std::nullopt;
     }
@@ -61,6 +65,11 @@ class DepthScanner {
         } else if (c == ',') {
             dots_ = 0;  // the next key, or the next value
         }
+    }
+
+    void count(char c) {
+        if (c == '=' || c == '[' || c == '{') values_ += kValuesPerTable;
+        if (c == ',') ++values_;
     }
 
     /// The place behind the string that begins at `i`.
@@ -88,6 +97,8 @@ class DepthScanner {
     }
 
     std::string_view text_;
+    const std::size_t most_depth_, most_values_;
+    std::size_t values_ = 0;
     std::size_t steps_ = 0;
     std::size_t line_ = 1;
     bool is_header_ = false;
@@ -99,6 +110,12 @@ class DepthScanner {
 
 }  // namespace
 
-std::optional<std::size_t> line_nested_too_deep(std::string_view text) { return DepthScanner(text).run(); }
+std::optional<std::size_t> line_nested_too_deep(std::string_view text) {
+    return DepthScanner(text, kMaxTomlDepth, std::numeric_limits<std::size_t>::max()).run();
+}
+
+std::optional<std::size_t> line_with_too_many_values(std::string_view text, std::size_t most) {
+    return DepthScanner(text, std::numeric_limits<std::size_t>::max(), most).run();
+}
 
 }  // namespace burin

@@ -12,7 +12,7 @@ namespace burin {
 namespace {
 
 toml::table tables_of(const std::string& text) {
-    return parse_checked_toml(text, "sheet", "a style sheet", kMaxSheetBytes);
+    return parse_checked_toml(text, "sheet", "a style sheet", kMaxSheetBytes, kMaxSheetValues);
 }
 
 /// The value of a parameter; nullptr where it is no parameter.

@@ -185,7 +185,7 @@ TEST(SheetErrors, OfTheWholeSheet) {
                          {"[lines]\nwidth = 3\n[style.ink]\n[[set]]\nname=\"a\"\nclasses=\"crease\"\nstyle=\"ink\"",
                           "1:2", "unknown key 'lines'"}});
     EXPECT_NE(error_of("style_version = 1").find("the sheet has no [[set]]"), std::string::npos);
-    EXPECT_NE(error_of(std::string(kMaxSheetBytes + 1, ' ')).find("more than 8 MB"), std::string::npos);
+    EXPECT_NE(error_of(std::string(kMaxSheetBytes + 1, ' ')).find("more than 2 MB"), std::string::npos);
     EXPECT_NE(error_of("a = " + std::string(100, '[')).find("nested more than 64 deep"), std::string::npos);
     std::string many = kInk + "[let]\n";
     for (int i = 0; i < 256; ++i) many += "l" + std::to_string(i) + " = \"=1\"\n";
@@ -196,6 +196,27 @@ TEST(SheetErrors, OfTheWholeSheet) {
     const auto group = [](const std::string& list) { return kInk + "[groups]\nall = { objects = [" + list + "] }\n"; };
     EXPECT_EQ(error_of(group(names)), "");
     EXPECT_NE(error_of(group(names + "\"part*\"")).find("objects: has more than 256 entries"), std::string::npos);
+}
+
+TEST(SheetErrors, OfSheetsWithTooManyValues) {
+    const auto keys = [](std::size_t count) {
+        std::string text = kInk + "[let]\n";
+        for (std::size_t i = 0; i < count; ++i) text += "a" + std::to_string(i) + " = 1\n";
+        return error_of(text);
+    };
+    const std::string words = "a style sheet of more than 30000 keys, tables and lists, or 120000 values";
+    EXPECT_NE(keys(29980).find("there are more than 256 of them"), std::string::npos) << keys(29980);
+    EXPECT_EQ(keys(30000).find("s.toml:"), 0u);
+    EXPECT_NE(keys(30000).find(words), std::string::npos) << keys(30000);
+    const auto list = [](std::size_t count, const std::string& value) {
+        std::string text = kInk + "[groups]\nall = { objects = [";
+        for (std::size_t i = 0; i < count; ++i) text += value + ", ";
+        return error_of(text + "] }\n");
+    };
+    EXPECT_EQ(list(kMostPlainNames, "\"part[1],=\""), "");  // what stands in texts does not count
+    EXPECT_NE(list(kMostPlainNames + 1, "\"part\"").find("objects: has more than"), std::string::npos);
+    EXPECT_NE(list(120000, "\"part\"").find(words), std::string::npos);
+    EXPECT_EQ(error_of(kInk + "# " + std::string(500000, '=')), "");
 }
 
 TEST(SheetErrors, OfTheCommandLine) {
