@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import os
-from typing import Any, Optional, Union
+from typing import Any, Optional
 
 import numpy as np
 import numpy.typing as npt
@@ -65,11 +64,3 @@ def matrix(name: str, values: Any) -> list[float]:
     full = np.eye(4)
     full[: array.shape[0]] = array
     return [float(x) for x in full.ravel()]
-
-
-def path(value: Union[str, "os.PathLike[str]"]) -> str:
-    """The name of a file."""
-    name = os.fspath(value)
-    if "\0" in name:
-        raise UsageError("the name of a file has a NUL character")
-    return name

@@ -9,7 +9,7 @@ from typing import Any, Callable, Optional, Union
 import numpy as np
 import numpy.typing as npt
 
-from . import _arrays, _core
+from . import _core, _values
 
 PathLike = Union[str, "os.PathLike[str]"]
 Array = npt.NDArray[Any]
@@ -74,7 +74,7 @@ class Picture:
 
     def pixels(self, channels: int = 3) -> npt.NDArray[np.uint8]:
         """What a display shows: 1 grey, 3 red green blue, 4 with alpha. Needs the layer "beauty"."""
-        return self._core.pixels(channels)
+        return self._core.pixels(_values.whole("channels", channels))
 
     def __array__(self, dtype: Any = None) -> Array:
         pixels = self.pixels()
@@ -90,6 +90,7 @@ class Picture:
     def restyle(self, style: str) -> "Picture":
         """The same view drawn by a style sheet: its name, file or text. Lines of all classes are found when this is
         first called; sheets with the same crease_angle and contours can draw them."""
+        _values.text("style", style)
         if self._all is None:
             self._all = self._find_all()
         return self._all.draw(style)
@@ -102,6 +103,7 @@ class Picture:
     def encode(self, format: str) -> bytes:
         """The bytes of a file: "png", "png16", "exr", "tif", "tif16", and "svg", "pdf", "dxf", which its drawing
         makes."""
+        _values.text("format", format)
         return self.drawing.encode(format) if format in VECTOR_FORMATS else self._core.encode(format)
 
     def png(self) -> bytes:
@@ -109,7 +111,7 @@ class Picture:
 
     def save(self, path: PathLike) -> None:
         """Into a file, whose suffix says the format; paths are made by its drawing."""
-        path = _arrays.path(path)
+        path = _values.path("path", path)
         if _suffix(path) in VECTOR_FORMATS:
             self.drawing.save(path)
         else:
@@ -163,6 +165,7 @@ class Drawing:
 
     def draw(self, style: Optional[str] = None, *, threads: int = 0) -> Picture:
         """The picture that a style sheet makes of the lines: its name, file or text. None: the look of the scene."""
+        style, threads = _values.text_or_none("style", style), _values.whole("threads", threads)
         return Picture(self._core.draw(style, threads), lambda: self)
 
     def encode(self, format: str, style: Optional[str] = None) -> bytes:
@@ -176,7 +179,7 @@ class Drawing:
 
     def save(self, path: PathLike, style: Optional[str] = None) -> None:
         """Into a file, whose suffix says the format."""
-        path = _arrays.path(path)
+        path = _values.path("path", path)
         self._written(_suffix(path), style).write(path, style)
         self._notes = _core.file_notes()
 
@@ -187,6 +190,8 @@ class Drawing:
 
     def _written(self, format: str, style: Optional[str]) -> _core.Drawing:
         """What a file is made of: paths need lines that a style sheet asked for, or the scene's look as one."""
+        _values.text("format", format)
+        _values.text_or_none("style", style)
         if format not in VECTOR_FORMATS or style is not None or self._find_for_paths is None:
             return self._core
         if self._for_paths is None:

@@ -9,7 +9,7 @@ from typing import Any, Optional, Union
 import numpy as np
 import numpy.typing as npt
 
-from . import _arrays, _core
+from . import _arrays, _core, _values
 from ._core import UsageError
 from ._drawing import Drawing, PathLike, Picture
 from ._mesh import MeshArrays, mesh_arrays
@@ -54,6 +54,7 @@ class Scene:
 
         matrix: object to world, (4, 4) or (3, 4). Points in double precision far from the origin keep it.
         """
+        name, material = _values.text("name", name), _values.whole("material", material)
         arrays = mesh_arrays(mesh)
         points = np.asarray(arrays.points)
         middle = _arrays.middle_of(points)
@@ -102,28 +103,28 @@ class Scene:
 
     def add_file(self, path: PathLike) -> int:
         """Adds what a scene file or a model holds. Returns the number of its first object."""
-        first = self._core.add_file(_arrays.path(path))
+        first = self._core.add_file(_values.path("path", path))
         self._version += 1
         return first
 
     def add_text(self, toml: str, base_folder: PathLike = "") -> int:
         """The same of the text of a scene file; paths in it are relative to `base_folder`."""
-        first = self._core.add_text(toml, os.fspath(base_folder))
+        first = self._core.add_text(_values.text("toml", toml), _values.path("base_folder", base_folder))
         self._version += 1
         return first
 
     def add_material(self, name: str = "", color: Vector = (0.8, 0.8, 0.8), opacity: float = 1.0) -> int:
         """Adds a material, of a linear colour. Returns its number."""
-        red, green, blue = (float(c) for c in color)
-        return self._core.add_material(name, [red, green, blue], opacity)
+        rgb = _values.reals("color", color, 3, "three finite numbers")
+        return self._core.add_material(_values.text("name", name), rgb, _values.real("opacity", opacity))
 
     def move(self, object: int, matrix: Optional[npt.ArrayLike]) -> None:
         """Puts an object somewhere else."""
-        self._core.move(object, _arrays.matrix("matrix", matrix))
+        self._core.move(_values.whole("object", object), _arrays.matrix("matrix", matrix))
         self._version += 1
 
     def remove(self, object: int) -> None:
-        self._core.remove(object)
+        self._core.remove(_values.whole("object", object))
         self._version += 1
 
     def clear(self) -> None:
@@ -133,10 +134,10 @@ class Scene:
 
     def object_of_id(self, id: int) -> int:
         """The object that has a number in the layer "id.object"."""
-        return self._core.object_of_id(int(id))
+        return self._core.object_of_id(_values.whole("id", id))
 
     def object_name(self, object: int) -> str:
-        return self._core.object_name(object)
+        return self._core.object_name(_values.whole("object", object))
 
     @property
     def notes(self) -> list[str]:
@@ -148,23 +149,23 @@ class Scene:
     def set(self, *settings: str, **values: Any) -> None:
         """Changes settings: set("lines.width=2"), or set(lines={"width": 2, "draw": ["crease"]})."""
         for setting in settings:
-            self._core.set(setting)
+            self._core.set(_values.text("settings", setting))
             self._version += 1
         for table, keys in values.items():
             if not isinstance(keys, Mapping):
                 raise UsageError(f"{table}: must be a dict of settings, as in set({table}={{'key': value}})")
             for key, value in keys.items():
-                self._core.set(f"{table}.{key}={_text(value)}")
+                self._core.set(_values.text(table, f"{table}.{key}={_text(value)}"))
                 self._version += 1
 
     def set_toml(self, toml: str) -> None:
         """Changes all settings that a text names, as a scene file does."""
-        self._core.set_toml(toml)
+        self._core.set_toml(_values.text("toml", toml))
         self._version += 1
 
     def set_style(self, style: Optional[str]) -> None:
         """Has lines look as a style sheet says: its name, file or text. None: takes it away."""
-        self._core.set_style(style or "")
+        self._core.set_style(_values.text_or_none("style", style) or "")
         self._has_sheet = bool(style)
         self._version += 1
 
@@ -175,12 +176,12 @@ class Scene:
         "blue" of the style. It returns a dict of those that it changes (arrays, or numbers), or None if it changed
         them in place. The same place must get the same ink in whatever array it comes.
         """
-        self._core.add_line_shader(name, list(variables), function)
+        self._core.add_line_shader(*_line_function(name, variables, function))
         self._version += 1
 
     def add_line_test(self, name: str, variables: Iterable[str], function: Callable[..., Any]) -> None:
         """Lets function(columns) say how much of lines there is, 0 to 1: line sets have it by test = "NAME"."""
-        self._core.add_line_test(name, list(variables), function)
+        self._core.add_line_test(*_line_function(name, variables, function))
         self._version += 1
 
     # ---- pictures and lines ----
@@ -214,7 +215,8 @@ class Scene:
 
     def explain(self, x: int, y: int, size: Optional[Sequence[int]] = None, *, json: bool = False, **view: Any) -> str:
         """Says why a pixel of a scene with a style sheet looks as it does."""
-        return self._core.explain(x, y, "json" if json else "text", self._work(size, **view))
+        place = _values.whole("x", x), _values.whole("y", y)
+        return self._core.explain(*place, "json" if json else "text", self._work(size, **view))
 
     def cancel(self) -> None:
         """Stops what the scene is doing, which then raises burin.Cancelled. From any thread."""
@@ -258,14 +260,12 @@ class Scene:
         for_paths: bool = False,
         find_all: bool = False,
     ) -> _core.Work:
+        camera = _values.text("camera", camera)
         if bool(camera) + (matrix is not None) + (eye is not None) > 1:
             raise UsageError("camera, matrix and eye: give one of them")
         if eye is None and target is not None:
             raise UsageError("target: needs eye")
-        if size is not None and np.shape(size) != (2,):
-            raise UsageError("size: must be two numbers, width and height")
-        if np.shape(shift) != (2,):
-            raise UsageError("shift: must be two numbers")
+        fov, ortho = _values.real("fov", fov), _values.real("ortho", ortho)
         if (fov or ortho) and matrix is None and eye is None:
             raise UsageError("fov and ortho: need eye or matrix")
         if fov and ortho:
@@ -273,23 +273,25 @@ class Scene:
         to_world = _arrays.matrix("matrix", matrix)
         if eye is not None:
             to_world = _looking(_vector("eye", eye), self._target(target), _vector("up", up))
+        if not isinstance(layers, str):
+            layers = ",".join("ids" if layer == "id" else layer for layer in _values.texts("layers", layers))
         return _core.Work(
-            [0, 0] if size is None else [int(n) for n in size],
-            [int(n) for n in crop],
-            samples,
+            [0, 0] if size is None else _values.wholes("size", size, 2, "two whole numbers, width and height"),
+            _values.wholes("crop", crop, 4, "four whole numbers, x0, y0, x1, y1"),
+            _values.whole("samples", samples),
             camera,
             to_world,
             fov,
             ortho,
-            [float(n) for n in shift],
-            pixel_aspect,
-            frame,
-            threads,
-            memory,
-            layers if isinstance(layers, str) else ",".join("ids" if layer == "id" else layer for layer in layers),
+            _values.reals("shift", shift, 2, "two finite numbers, to the right and up"),
+            _values.real("pixel_aspect", pixel_aspect),
+            _values.whole("frame", frame),
+            _values.whole("threads", threads),
+            _values.whole("memory", memory, 64),
+            _values.text("layers", layers),
             for_paths,
             find_all,
-            progress,
+            None if progress is None else _values.function("progress", progress),
         )
 
     def _target(self, target: Optional[Vector]) -> npt.NDArray[np.float64]:
@@ -354,10 +356,13 @@ def _text(value: Any) -> str:
 
 
 def _vector(name: str, value: Vector) -> npt.NDArray[np.float64]:
-    array = np.asarray(value)
-    if array.shape != (3,) or array.dtype.kind not in "fiu" or not np.all(np.isfinite(array)):
-        raise UsageError(f"{name}: must be three finite numbers")
-    return array.astype(np.float64)
+    return np.array(_values.reals(name, value, 3, "three finite numbers"))
+
+
+def _line_function(
+    name: str, variables: Iterable[str], function: Callable[..., Any]
+) -> tuple[str, list[str], Callable[..., Any]]:
+    return _values.text("name", name), _values.texts("variables", variables), _values.function("function", function)
 
 
 def _moved(to_world: list[float], by: npt.NDArray[np.float64]) -> list[float]:

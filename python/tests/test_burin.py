@@ -193,7 +193,9 @@ def test_bad_meshes_are_named(mesh, error, message):
     "options, message",
     [
         ({"size": (0, 3)}, "width and view.height"),
-        ({"size": 3}, "size: must be two numbers"),
+        ({"size": 3}, "size: must be two whole numbers, width and height, not 3"),
+        ({"size": ("a", 3)}, "size: must be two whole numbers"),
+        ({"size": (64.5, 48)}, r"size: must be two whole numbers, width and height, not \(64.5, 48\)"),
         ({"size": (99999, 3)}, "65535"),
         ({"eye": (0, 0, 0), "target": (0, 0, 0)}, "are one place"),
         ({"eye": (0, 5, 0), "up": (0, 1, 0), "target": (0, 0, 0)}, "up: is zero, or along"),
@@ -202,7 +204,7 @@ def test_bad_meshes_are_named(mesh, error, message):
         ({"fov": 30}, "need eye or matrix"),
         ({"pixel_aspect": 0.01}, "pixel_aspect"),
         ({"pixel_aspect": float("nan")}, "pixel_aspect"),
-        ({"shift": (1, 2, 3)}, "shift: must be two numbers"),
+        ({"shift": (1, 2, 3)}, "shift: must be two finite numbers"),
         ({"shift": (1, 0)}, "shift"),
         ({"eye": (3, 3, 3), "fov": float("nan")}, "fov"),
         ({"eye": (3, 3, 3), "fov": 30, "ortho": 3}, "fov and ortho: give one of them"),
@@ -217,11 +219,73 @@ def test_bad_meshes_are_named(mesh, error, message):
         ({"layers": "everything"}, "layers"),
         ({"crop": (0, 0, 500, 500)}, "crop"),
         ({"threads": -1}, "threads"),
+        ({"threads": 1e9}, "threads: must be from 0 to 1024"),
+        ({"threads": 1e10}, "threads: must be a whole number from -2147483648 to 2147483647, not 10000000000.0"),
+        ({"samples": "a"}, "samples: must be a whole number, not 'a'"),
+        ({"frame": float("nan")}, "frame: must be a whole number, not nan"),
+        ({"fov": "x"}, "fov: must be a finite number, not 'x'"),
+        ({"ortho": [3]}, r"ortho: must be a finite number, not \[3\]"),
+        ({"pixel_aspect": "wide"}, "pixel_aspect: must be a finite number"),
+        ({"crop": (1, 2)}, r"crop: must be four whole numbers, x0, y0, x1, y1, not \(1, 2\)"),
+        ({"crop": "all"}, "crop: must be four"),
+        ({"memory": -1}, "memory: must be a whole number from 0"),
+        ({"memory": None}, "memory: must be a whole number, not None"),
+        ({"style": 3}, r"style: must be a text \(str\), not 3"),
+        ({"style": "a\0b"}, "style: must be a text of UTF-8 without NUL"),
+        ({"style": "\ud800"}, "style: must be a text of UTF-8"),
+        ({"camera": 3}, "camera: must be a text"),
+        ({"layers": [1]}, "layers: must be a text"),
+        ({"layers": 1}, "layers: must be a list of texts"),
+        ({"progress": 3}, "progress: must be a function, not 3"),
+        ({"up": "y", "eye": (3, 3, 3)}, "up: must be three finite numbers, not 'y'"),
+        ({"target": [[1], [2, 3]], "eye": (3, 3, 3)}, "target: must be three finite numbers"),
     ],
 )
 def test_bad_options_are_named(options, message):
     with pytest.raises(ValueError, match=message):
         burin.draw((POINTS, QUADS), **{"size": SIZE, **options})
+
+
+@pytest.mark.parametrize(
+    "call, message",
+    [
+        (lambda s: s.add((POINTS, QUADS), name=3), "name: must be a text"),
+        (lambda s: s.add((POINTS, QUADS), material="steel"), "material: must be a whole number, not 'steel'"),
+        (lambda s: s.add_file(3), "path: must be a file's name .*, not 3"),
+        (lambda s: s.add_text(b"", ""), "toml: must be a text"),
+        (lambda s: s.add_text("", 3), "base_folder: must be a file's name"),
+        (lambda s: s.add_material("a", "red"), "color: must be three finite numbers, not 'red'"),
+        (lambda s: s.add_material("a", opacity="x"), "opacity: must be a finite number"),
+        (lambda s: s.move("a", None), "object: must be a whole number"),
+        (lambda s: s.remove(2**31), "object: must be a whole number from"),
+        (lambda s: s.object_name(1.5), "object: must be a whole number, not 1.5"),
+        (lambda s: s.object_of_id(None), "id: must be a whole number"),
+        (lambda s: s.set(3), "settings: must be a text"),
+        (lambda s: s.set_toml(None), "toml: must be a text"),
+        (lambda s: s.add_line_shader("a", ["s"], 3), "function: must be a function"),
+        (lambda s: s.add_line_shader("a", "s", print), "variables: must be a list of texts"),
+        (lambda s: s.add_line_test(3, ["s"], print), "name: must be a text"),
+        (lambda s: s.explain("x", 0, SIZE), "x: must be a whole number"),
+        (lambda s: s.render(SIZE).pixels("all"), "channels: must be a whole number"),
+        (lambda s: s.render(SIZE).encode(3), "format: must be a text"),
+        (lambda s: s.render(SIZE).save(3), "path: must be a file's name"),
+        (lambda s: s.render(SIZE).restyle(3), "style: must be a text"),
+        (lambda s: s.find_lines(SIZE).draw(3), "style: must be a text"),
+        (lambda s: s.find_lines(SIZE).draw(threads="all"), "threads: must be a whole number"),
+        (lambda s: s.find_lines(SIZE).svg(3), "style: must be a text"),
+        (lambda s: s.find_lines(SIZE).save(3), "path: must be a file's name"),
+    ],
+)
+def test_bad_values_are_named(call, message):
+    with pytest.raises(burin.UsageError, match=f"^{message}"):
+        call(burin.Scene((POINTS, QUADS)))
+
+
+def test_numbers_of_all_kinds_are_numbers():
+    plain = burin.draw((POINTS, QUADS), size=SIZE, eye=(3, 2, 5), samples=4).png()
+    for of in (np.int64, np.float32, float):
+        size, eye = np.array(SIZE, of), np.array((3, 2, 5), of)
+        assert burin.draw((POINTS, QUADS), size=size, eye=eye, samples=of(4), fov=of(0)).png() == plain
 
 
 def test_pictures_save_paths_as_their_drawing_does(tmp_path):
