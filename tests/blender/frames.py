@@ -66,8 +66,25 @@ def left_processes():
     return found
 
 
+SHARED = pathlib.Path("/dev/shm")
+SHARED_BEFORE = set(SHARED.iterdir())
+
+
+def left_shared_memory():
+    """Files that have come into /dev/shm and that no process has mapped or open, as those of other programs are."""
+    new = {str(path) for path in set(SHARED.iterdir()) - SHARED_BEFORE}
+    for entry in pathlib.Path("/proc").iterdir() if new else ():
+        try:
+            if entry.name.isdigit():
+                used = {os.readlink(fd) for fd in (entry / "fd").iterdir()}
+                new -= used | {line.split()[-1] for line in (entry / "maps").read_text().splitlines()}
+        except OSError:
+            pass
+    return sorted(path for path in new if os.path.exists(path))
+
+
 def nothing_is_left(name):
-    """No file, no process; a process that was killed may take a moment."""
+    """No file, no process, no shared memory; a process that was killed may take a moment."""
     for _ in range(100):
         if not left_processes():
             break
@@ -75,6 +92,7 @@ def nothing_is_left(name):
     assert not left_processes(), (name, left_processes())
     files = [p.name for p in (FOLDER / name).iterdir() if not p.is_dir()]
     assert not files, (name, files)
+    assert not left_shared_memory(), (name, left_shared_memory())
 
 
 def frames(name, *what, **environment):
@@ -134,23 +152,24 @@ def failures_end_with_status_1():
     assert not (FOLDER / "s.crash.txt").exists()  # Blender's own handler of crashes has not run
 
 
-def wait_for_child(process):
-    """Until Blender has a child that draws."""
+def wait_until_it_draws(process, mark):
+    """Until Blender's child has made a file: others of its children draw nothing."""
     for _ in range(600):
-        children = [p for p in left_processes() if p != str(process.pid)]
-        if children:
-            return children
+        if mark.exists():
+            return
         assert process.poll() is None, process.communicate()
         time.sleep(0.1)
-    raise AssertionError("no child")
+    raise AssertionError("no child that draws")
 
 
 def interrupts_stop_at_once():
-    library = make_stub(FOLDER / "lib-slow", 99, "for (;;) sleep(1000);")
+    mark = FOLDER / "draws"
+    library = make_stub(FOLDER / "lib-slow", 99, f'close(creat("{mark}", 0600)); for (;;) sleep(1000);')
     for name, number, status in (("sigint", signal.SIGINT, 1), ("sigkill", signal.SIGKILL, -9)):
         arguments, environment = frames(name, "-a", BURIN=str(library))
         process = start(*arguments, **environment)
-        wait_for_child(process)
+        wait_until_it_draws(process, mark)
+        mark.unlink()
         begin = time.monotonic()
         process.send_signal(number)
         process.communicate(timeout=60)  # the child would take for ever

@@ -11,7 +11,7 @@ import bpy
 
 from in_blender import FOLDER, add, look_of, main, new_scene, render, told
 
-from burin_blender import child, core, presets, sheets
+from burin_blender import child, core, engine, presets, sheets
 from burin_blender.look import Look
 
 SHEET = ('style_version = 1\n[parameters]\nown = "{}mm"\n[[set]]\nname = "a"\nclasses = ["{}"]\nstyle = "b"\n'
@@ -36,6 +36,45 @@ def in_child(work):
         return child.work_in_child(lambda memory: work(), child.SharedMemory(8), lambda: False, lambda done: None)
     except child.ChildError as error:
         return str(error)
+
+
+def progress_is_shown_as_the_child_tells_it():
+    shown, told_values = [], (0.25, 0.5, 0.75)
+    seen = {}
+
+    def work(memory):
+        for value in told_values:
+            memory.set_progress(value)
+            time.sleep(10 * child.WAIT_S)
+        return "done"
+
+    assert child.work_in_child(work, child.SharedMemory(8), lambda: False, shown.append) == "done"
+    assert set(shown) <= {0, *told_values} and shown == sorted(shown), shown
+    assert len(set(shown) & set(told_values)) >= 2, shown  # one may be missed where the machine is busy
+
+    def drawn_in_child(work, memory, is_cancelled, show_progress):
+        """As the engine has it done, but that each value is kept that Blender is told."""
+        seen["told"] = repr(show_progress)
+
+        def show(done):
+            seen.setdefault("values", []).append(done)
+            show_progress(done)
+
+        return child.work_in_child(work, memory, is_cancelled, show)
+
+    scene = new_scene(4096, 4096)
+    scene.burin.samples = "8"
+    scene.burin.threads = 1
+    add("monkey", "monkey").modifiers.new("subdivided", "SUBSURF").render_levels = 4
+    engine.work_in_child, original = drawn_in_child, engine.work_in_child
+    try:
+        bpy.ops.render.render()
+    finally:
+        engine.work_in_child = original
+    values = seen["values"]
+    assert "update_progress" in seen["told"], seen["told"]
+    assert values == sorted(values) and 0 <= values[0] and values[-1] <= 1, values
+    assert any(0 < value < 1 for value in values), values
 
 
 def open_files():
@@ -204,7 +243,8 @@ def a_program_that_failed_is_asked_again():
         presets.answer = original
 
 
-main([each_job_tells_everything_once, children_end_in_all_kinds_of_ways, a_dead_child_is_seen_though_its_pipe_is_open,
-      no_descriptor_is_left_where_there_is_no_child, a_child_has_no_end_for_reading,
+main([each_job_tells_everything_once, progress_is_shown_as_the_child_tells_it, children_end_in_all_kinds_of_ways,
+      a_dead_child_is_seen_though_its_pipe_is_open, no_descriptor_is_left_where_there_is_no_child,
+      a_child_has_no_end_for_reading,
       presets_have_their_numbers_for_good, mended_presets_are_right, parameters_count_without_the_program,
       a_program_that_failed_is_asked_again])

@@ -12,8 +12,8 @@ def make_stub(folder, abi, when_drawing):
     folder.mkdir()
     names = re.findall(r'"(burin_\w+)": \(', (SOURCE / "blender/burin_blender/interface.py").read_text())
     assert len(names) > 10, names
-    code = ["#include <stdlib.h>", "#include <unistd.h>", f"int burin_abi(void) {{ return {abi}; }}",
-            'const char* burin_version(void) { return "0.0.7"; }',
+    code = ["#include <fcntl.h>", "#include <stdlib.h>", "#include <unistd.h>",
+            f"int burin_abi(void) {{ return {abi}; }}", 'const char* burin_version(void) { return "0.0.7"; }',
             f"void* burin_scene_new(void) {{ {when_drawing} return 0; }}"]
     code += [f"void* {name}(void) {{ return 0; }}" for name in names if name != "burin_scene_new"]
     subprocess.run(["cc", "-shared", "-fPIC", "-w", "-o", str(folder / "libburin.so.0"), "-x", "c", "-"],
