@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
+#include <cstddef>
 
 // Signals that ask the program to stop become an exception that long loops throw, so that no partial file is left.
 
@@ -35,5 +37,15 @@ bool interrupt_requested() noexcept;
 
 /// Throws `Interrupted` once this thread's flag is set. Long loops call this now and then.
 void throw_if_interrupted();
+
+/// std::fill_n for what may be gigabytes that the system must back first: asks in between whether to stop.
+template <typename T>
+void fill_stoppably(T* to, std::size_t count, T value) {
+    constexpr std::size_t kAtOnce = (std::size_t{1} << 21) / sizeof(T);
+    for (std::size_t begin = 0; begin < count; begin += kAtOnce) {
+        throw_if_interrupted();
+        std::fill_n(to + begin, std::min(kAtOnce, count - begin), value);
+    }
+}
 
 }  // namespace burin

@@ -149,7 +149,8 @@ burin_drawing* burin_find_lines(burin_scene* scene, const burin_view* view, cons
         auto drawing = std::make_unique<burin_drawing>(film_of(frame, call.given()));
         if (drawing->surfaces.mattes() != nullptr || drawing->surfaces.layers().motion)
             throw UsageError("options.layers: crypto, line and motion are layers of burin_render()");
-        LineDrawing found = with_option_names([&] { return find_drawing(frame, call.run(), drawing->surfaces); });
+        Film& film = drawing->surfaces;
+        LineDrawing found = call.draw(film, [&] { return find_drawing(frame, call.run(), film); });
         add_pieces(found.visible(), *drawing);
         add_pieces(found.behind(), *drawing);
         find_owners(frame.surfaces, *drawing);

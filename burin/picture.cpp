@@ -50,7 +50,7 @@ burin_picture* burin_render(burin_scene* scene, const burin_view* view, const bu
         const Frame& frame = call.ready().frame();
         Film film = film_of(frame, call.given());
         std::vector<std::string> notes = call.ready().notes();
-        const RenderStats stats = with_option_names([&] { return render_abuffer(frame, call.run(), film); });
+        const RenderStats stats = call.draw(film, [&] { return render_abuffer(frame, call.run(), film); });
         const auto& instances = frame.surfaces.instances;
         const bool has_lines = std::any_of(instances.begin(), instances.end(),
                                            [](const SurfaceInstance& i) { return !i.mesh->loose_edges.empty(); });

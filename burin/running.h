@@ -47,17 +47,32 @@ class FrameCall {
         : call_(required(scene, "scene")),
           given_(checked_options(read_struct_or_default(options, "options"))),
           ready_(*scene, read_struct_or_default(view, "view"), given_),
+          scene_(*scene),
           progress_(given_, *scene),
-          run_{given_.threads, progress_.get(), given_.memory_bytes} {}
+          run_{given_.threads, progress_.get(), given_.memory_bytes} {
+        scene_.late_film.wait();  // what is drawn now may need its memory
+    }
 
     const OptionsInput& given() const { return given_; }
     const SceneForFrame& ready() const { return ready_; }
     const RunOptions& run() const { return run_; }
+    /// Runs what draws on a film. Says which option a limit is that was too small; has a film that is not drawn to its
+    /// end freed later.
+    template <typename Work>
+    auto draw(Film& film, const Work& work) const {
+        try {
+            return with_option_names(work);
+        } catch (const Interrupted&) {
+            scene_.late_film.take(std::move(film));
+            throw;
+        }
+    }
 
   private:
     StoppableCall call_;
     OptionsInput given_;
     SceneForFrame ready_;
+    burin_scene& scene_;
     RunProgress progress_;
     RunOptions run_;
 };

@@ -9,6 +9,7 @@
 
 #include "base/interrupt.h"
 #include "burin/burin.h"
+#include "burin/late_film.h"
 #include "render/prepared.h"
 #include "scene/scene.h"
 #include "scene/scene_settings.h"
@@ -70,6 +71,7 @@ struct burin_scene {
     std::uint64_t placement = 1;  ///< counts moves of objects
     burin::Preparation preparation;
     burin::StopFlag stop{false};
+    burin::LateFilm late_film;  ///< of the last picture that was stopped
 };
 
 namespace burin {

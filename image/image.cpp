@@ -11,16 +11,16 @@ namespace burin {
 
 Channel& Image::add(std::string name, PixelType type) {
     Channel& channel = add_unfilled(std::move(name), type);
-    std::fill(channel.bytes.begin(), channel.bytes.end(), std::byte{0});
+    fill_stoppably(channel.bytes.data(), channel.bytes.size(), std::byte{0});
     return channel;
 }
 
 Channel& Image::add_unfilled(std::string name, PixelType type) {
-    throw_if_interrupted();  // filling a large channel takes a while
+    throw_if_interrupted();
     Channel channel;
     channel.name = std::move(name);
     channel.type = type;
-    // Huge pages for larger images take seconds that nothing can interrupt.
+    // Huge pages for larger images may take seconds to be found, and nothing can interrupt that.
     constexpr std::size_t kMostPixels = std::size_t{1} << 23;
     if (pixel_count() <= kMostPixels) reserve_large(channel.bytes, pixel_count() * size_of(type));
     channel.bytes.resize(pixel_count() * size_of(type));

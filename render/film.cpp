@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "base/stream_store.h"
 #include "image/half.h"
 #include "render/mattes.h"
@@ -199,7 +200,7 @@ std::unique_ptr<Film::Block> Film::make_block(PixelRect rect) const {
 
 void Film::fill_with_background(Block& block) const {
     for_channels(layers_, classes_, block.planes, [&](const std::string&, PixelType, auto* plane, auto background) {
-        std::fill_n(plane, block.image.pixel_count(), background);
+        fill_stoppably(plane, block.image.pixel_count(), background);
     });
 }
 
@@ -223,10 +224,10 @@ Film::Block& Film::add_block(std::size_t number, bool all_is_put) {
     }
     if (!all_is_put) fill_with_background(*block);
     for (std::uint16_t* const plane : block->planes.lines_hidden) {  // not put for each pixel
-        if (plane != nullptr) std::fill_n(plane, block->image.pixel_count(), std::uint16_t{0});
+        if (plane != nullptr) fill_stoppably(plane, block->image.pixel_count(), std::uint16_t{0});
     }
     for (const HalfPlanes& set : block->planes.line_sets) {
-        for (std::uint16_t* const plane : set.of) std::fill_n(plane, block->image.pixel_count(), std::uint16_t{0});
+        for (std::uint16_t* const plane : set.of) fill_stoppably(plane, block->image.pixel_count(), std::uint16_t{0});
     }
     pool_->used += pixels;
     blocks_[number].store(block, std::memory_order_release);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "abuffer/screen/sampling.h"
+#include "base/interrupt.h"
 #include "base/stream_store.h"
 #include "shading/surface_shader.h"
 
@@ -355,7 +356,10 @@ PixelRect PixelFiller::in_crop(PixelRect r) const {
 void PixelFiller::clear(PixelRect rect, Film& film) const {
     rect = in_crop(rect);
     if (rect.x0 >= rect.x1) return;
-    for (int y = rect.y0; y < rect.y1; ++y) film.put_background(rect.x0, rect.x1, y);
+    for (int y = rect.y0; y < rect.y1; ++y) {
+        throw_if_interrupted();  // all empty tiles of a row come at once: megabytes that may have to be backed first
+        film.put_background(rect.x0, rect.x1, y);
+    }
     finish_stream_stores();
 }
 

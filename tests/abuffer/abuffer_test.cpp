@@ -10,7 +10,10 @@
 #include <numbers>
 
 #include "abuffer/samples/fast_decision.h"
+#include "abuffer/samples/pixel_fill.h"
 #include "abuffer/samples/surface_tile.h"
+#include "base/error.h"
+#include "base/interrupt.h"
 #include "mesh/shapes.h"
 #include "tests/support/drawing.h"
 #include "tests/support/random.h"
@@ -432,6 +435,20 @@ TEST(Abuffer, ALongStepIsDrawnLikeOneInPieces) {
             EXPECT_GT(many.sum("lines.A"), 200);
         }
     }
+}
+
+// All empty tiles of a row are one piece of work, which may be megabytes.
+TEST(Abuffer, BackgroundIsPutUntilThePictureIsStopped) {
+    const Scene scene = heap(1);
+    const Frame frame =
+        make_frame(scene, perspective_camera(kEye, {0, 0, 0}), kWidth, kHeight, {0, 0, kWidth, kHeight});
+    const ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), 1);
+    const PixelFiller filler(frame, screen, best_kernels(), nullptr);
+    Film film(frame.crop, frame.crop, {}, frame.criteria.classes);
+    filler.clear(frame.crop, film);
+    const StopFlag flag{true};
+    const StopScope scope(flag);
+    EXPECT_THROW(filler.clear(frame.crop, film), Interrupted);
 }
 
 }  // namespace

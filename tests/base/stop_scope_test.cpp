@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <thread>
@@ -66,6 +67,30 @@ TEST(StopScope, JobsBesideEachOtherAreStoppedOneByOne) {
         });
     }
     for (std::thread& thread : threads) thread.join();
+}
+
+/// A number that asks to stop when it has been written often enough.
+struct AskingToStop {
+    static inline StopFlag flag{false};
+    static inline std::size_t written = 0;
+    AskingToStop() = default;
+    AskingToStop(const AskingToStop&) = default;
+    AskingToStop& operator=(const AskingToStop&) {
+        if (++written == 1000) flag = true;
+        return *this;
+    }
+    std::array<char, 64> bytes{};
+};
+
+TEST(StopScope, LargeMemoryIsFilledUntilTheFlagIsSet) {
+    std::vector<AskingToStop> values(std::size_t{1} << 17);  // 8 MB
+    const StopScope scope(AskingToStop::flag);
+    EXPECT_THROW(fill_stoppably(values.data(), values.size(), AskingToStop()), Interrupted);
+    EXPECT_LE(AskingToStop::written, std::size_t{1} << 15);
+    AskingToStop::flag = false;
+    AskingToStop::written = 1000;
+    fill_stoppably(values.data(), values.size(), AskingToStop());
+    EXPECT_EQ(AskingToStop::written, 1000 + values.size());
 }
 
 TEST(Progress, IsToldOnTheThreadThatMadeIt) {

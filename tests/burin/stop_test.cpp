@@ -1,4 +1,6 @@
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <stdexcept>
@@ -29,6 +31,64 @@ TEST(Stop, CancelFromAnotherThreadEndsThePictureAndNoLaterOne) {
     EXPECT_EQ(failure_of([&] { scene.render(kLarge, kBeauty); }), BURIN_STOPPED);
     is_done = true;
     other.join();
+    EXPECT_TRUE(exr_of(scene) == before);
+}
+
+/// What there is to draw of a scene, with all that is done after visible lines are found.
+Scene scene_drawn_with(const std::string& look) {
+    Scene scene = large_scene();
+    if (look == "hidden") scene.set("lines.hidden.style=dashed");
+    if (look == "sheet") scene.set_style("technical");
+    return scene;
+}
+
+TEST(Stop, CancelEndsThePictureWhenMuchOfItIsDrawn) {
+    const struct {
+        std::string look;
+        double share;  // after which it is stopped
+    } cases[] = {{"plain", 0.1}, {"plain", 0.5}, {"hidden", 0.2}, {"sheet", 0.1}};
+    for (const auto& [look, share] : cases) {
+        SCOPED_TRACE(look + " " + std::to_string(share));
+        Scene scene = scene_drawn_with(look);
+        const std::string before = exr_of(scene);
+        std::atomic<bool> is_late = false, is_done = false;
+        std::thread other([&] {
+            while (!is_late && !is_done) std::this_thread::yield();
+            while (!is_done) scene.cancel();
+        });
+        Options options = kBeauty;
+        options.threads = 1;  // it takes long enough to be told of
+        int calls_when_late = 0;
+        options.progress = [&, least = share](double done) {
+            if (is_late) ++calls_when_late;
+            if (done >= least) is_late = true;
+            return false;
+        };
+        EXPECT_EQ(failure_of([&] { scene.render(kLarge, options); }), BURIN_STOPPED);
+        is_done = true;
+        other.join();
+        EXPECT_TRUE(is_late);
+        EXPECT_LE(calls_when_late, 1);  // no more than what was about to be told
+        EXPECT_TRUE(exr_of(scene) == before);
+    }
+}
+
+// The memory of the stopped picture is given back by a thread that a fork does not copy.
+TEST(Stop, AForkGoesOnAfterAStoppedPicture) {
+    Scene scene = large_scene();
+    const std::string before = exr_of(scene);
+    Options options;
+    options.threads = 1;
+    options.progress = [](double done) { return done > 0.3; };
+    EXPECT_EQ(failure_of([&] { scene.render(kLarge, options); }), BURIN_STOPPED);
+    const pid_t child = fork();
+    if (child == 0) {
+        alarm(120);  // ends it, should it wait for ever
+        _exit(exr_of(scene) == before ? 0 : 1);
+    }
+    int status = -1;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0);
     EXPECT_TRUE(exr_of(scene) == before);
 }
 
