@@ -13,7 +13,13 @@ static_assert(StopFlag::is_always_lock_free);
 
 thread_local const StopFlag* t_stop_flag = &g_interrupted;
 
-extern "C" void on_signal(int) { g_interrupted.store(true, std::memory_order_relaxed); }
+extern "C" void on_signal(int signal_number) {
+    const bool is_second = g_interrupted.exchange(true, std::memory_order_relaxed);
+    // SIGXCPU comes again after every second of CPU time, which many threads use up in a moment.
+    if (!is_second || signal_number == SIGXCPU) return;
+    std::signal(signal_number, SIG_DFL);
+    std::raise(signal_number);  // it kills when this handler returns
+}
 
 }  // namespace
 
@@ -26,9 +32,6 @@ void install_interrupt_handlers() {
         action = {};
         action.sa_handler = on_signal;
         action.sa_flags = SA_RESTART;
-        // SIGXCPU comes again after every second of CPU time, which many threads use up in a
-        // moment.
-        if (signal_number != SIGXCPU) action.sa_flags |= static_cast<int>(SA_RESETHAND);
         sigemptyset(&action.sa_mask);
         sigaction(signal_number, &action, nullptr);
     }

@@ -9,7 +9,7 @@
 namespace burin {
 
 /// From now on SIGINT, SIGTERM, SIGHUP (the terminal is gone), SIGQUIT and SIGXCPU (a limit of CPU time) ask the
-/// program to stop instead of killing it. The same signal again kills at once, but for SIGXCPU. A SIGHUP that is
+/// program to stop instead of killing it. A second one, of whatever kind but SIGXCPU, kills at once. A SIGHUP that is
 /// ignored stays so.
 void install_interrupt_handlers();
 
