@@ -199,6 +199,12 @@ std::optional<double> first_frame(const Arguments& a, const SceneDescription& sc
     return scene.turntable ? std::optional(scene.turntable->first) : std::nullopt;
 }
 
+/// The frames whose models may stand for those of the first one.
+std::vector<double> frames_instead(const Arguments& a, const SceneDescription& scene) {
+    if (!a.keeps_going) return {};
+    return scene.frame_range.empty() ? a.frame_list : scene.frame_range;
+}
+
 }  // namespace
 
 LoadedInput load_input(DescribedInput input, const Arguments& a, const std::vector<OutputFile>& outputs) {
@@ -212,6 +218,7 @@ LoadedInput load_input(DescribedInput input, const Arguments& a, const std::vect
                               .strict = a.strict,
                               .budget = a.model_budget,
                               .first_frame = first_frame(a, description),
+                              .frames_instead = frames_instead(a, description),
                               .lists_animations = a.command == Command::info};
     AnimatedScene animated = load_animated_scene(std::move(description), options, &loaded.files);
     refuse_to_overwrite(outputs, loaded.files);
@@ -286,6 +293,8 @@ template <typename Resolve>
 auto naming_camera(const CameraSettings& settings, const Arguments& a, const Resolve& resolve) {
     try {
         return resolve();
+    } catch (const FrameError&) {
+        throw;
     } catch (const InputError& error) {
         if (changes_view(a)) throw UsageError("--eye, --target, --up, --fov, --ortho: " + std::string(error.what()));
         throw InputError((settings.where.line > 0 ? to_string(settings.where) : a.input) + ": " + error.what());
@@ -314,10 +323,19 @@ Camera JobCamera::at(const std::vector<CameraSettings>& cameras, const PictureSe
 }
 
 std::vector<CameraSettings> cameras_to_fit(const Scene& scene, const SceneAnimation& animation,
-                                           const std::vector<double>& range) {
-    if (range.empty() || !animation.moves()) return scene.cameras;
-    std::vector<CameraSettings> first = animation.at(range.front()).cameras;
-    return first.empty() ? scene.cameras : first;
+                                           const std::vector<double>& range, const UnreadableFrame& unreadable) {
+    if (!animation.moves()) return scene.cameras;
+    for (const double frame : range) {
+        try {
+            std::vector<CameraSettings> first = animation.at(frame).cameras;
+            return first.empty() ? scene.cameras : first;
+        } catch (const InputError& error) {
+            const FrameError of_frame(frame, error.what());
+            if (!unreadable) throw of_frame;
+            unreadable(of_frame);
+        }
+    }
+    return scene.cameras;
 }
 
 Still load_still(const Arguments& a, const std::vector<OutputFile>& outputs) {
@@ -352,6 +370,8 @@ std::vector<ViewOnSheet> views_of(const Scene& scene, const PointSource& points,
             std::fprintf(stderr,
                          "burin: note: --hidden draws nothing: iso leaves hidden lines out; iso+hidden has them\n");
         return views;
+    } catch (const FrameError&) {
+        throw;
     } catch (const InputError& error) {
         throw InputError(a.input + ": " + error.what());
     }

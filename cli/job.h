@@ -10,6 +10,7 @@
 #include "methods/method_table.h"
 #include "render/frame.h"
 #include "scene/animation/fitted_camera.h"
+#include "scene/animation/scene_animation.h"
 #include "scene/scene_description.h"
 
 namespace burin {
@@ -62,9 +63,9 @@ class JobCamera {
 };
 
 /// The cameras of a scene at rest for which those of all frames are fitted: as they are in the first frame of the
-/// range.
+/// range that can be read. `unreadable`: as for points_of_frames().
 std::vector<CameraSettings> cameras_to_fit(const Scene& scene, const SceneAnimation& animation,
-                                           const std::vector<double>& range);
+                                           const std::vector<double>& range, const UnreadableFrame& unreadable = {});
 
 /// The scene of one frame, and the camera that render has for it.
 struct Still {

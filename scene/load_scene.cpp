@@ -13,6 +13,7 @@
 #include "base/interrupt.h"
 #include "mesh/model.h"
 #include "mesh/text_scan.h"
+#include "scene/animation/frame_list.h"
 #include "scene/animation/model_sequence.h"
 #include "scene/animation/placeable.h"
 #include "scene/animation/played_model.h"
@@ -43,6 +44,7 @@ class SceneLoader {
           strict_(options.strict),
           budget_(options.budget),
           first_frame_(options.first_frame),
+          frames_instead_(options.frames_instead),
           lists_animations_(options.lists_animations),
           files_read_(files) {
         scene_.materials = from_.materials;
@@ -135,6 +137,8 @@ class SceneLoader {
         if (object.where.line == 0) return work();
         try {
             work();
+        } catch (const FrameError&) {
+            throw;
         } catch (const InputError& error) {
             throw InputError(object.where, error.what());
         }
@@ -258,13 +262,37 @@ class SceneLoader {
         if (!first_frame_ && !lists_animations_) {
             throw UsageError(object.file + ": is a model per frame; say which with --frames or [frames] range");
         }
-        const double frame = first_frame_ ? *first_frame_ : sequence->first_frame();
-        Model model = sequence->load(frame);
+        double frame = first_frame_ ? *first_frame_ : sequence->first_frame();
+        Model model = load_first(*sequence, frame);
         if (first_frame_) motion = add_motion(sequence);
         if (files_read_ != nullptr) {
             for (std::string& file : sequence->files_at(frame)) files_read_->push_back(std::move(file));
         }
         return model;
+    }
+
+    /// `frame`: gets the one that is read instead, if there is.
+    Model load_first(ModelSequence& sequence, double& frame) {
+        try {
+            return sequence.load(frame);
+        } catch (const InputError& error) {
+            if (!first_frame_) throw;
+            const FrameError first(frame, error.what());
+            for (const double other : frames_instead_) {
+                if (other == frame) continue;
+                throw_if_interrupted();
+                try {
+                    Model model = sequence.load(other);
+                    scene_.notes.push_back(std::string(first.what()) + "; objects and materials are those of frame " +
+                                           text_of_frame(other));
+                    frame = other;
+                    return model;
+                } catch (const InputError&) {
+                    continue;
+                }
+            }
+            throw first;
+        }
     }
 
     std::size_t add_motion(std::shared_ptr<const ModelMotion> motion) {
@@ -390,6 +418,7 @@ class SceneLoader {
     bool strict_;
     ModelBudget budget_;
     std::optional<double> first_frame_;
+    std::vector<double> frames_instead_;
     bool lists_animations_;
     std::vector<std::string>* files_read_;  // nullptr: nobody asks
     std::vector<std::string> pictures_;     // that models name

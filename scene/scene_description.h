@@ -99,6 +99,8 @@ struct LoadOptions {
     /// The first frame that is drawn: what moves within models is loaded, and sequences with the file of this frame.
     /// None: a still, in which models stand as their files put them.
     std::optional<double> first_frame = std::nullopt;
+    /// Frames whose file, in this order, may stand for that of the first one if that cannot be read, with a note.
+    std::vector<double> frames_instead = {};
     bool lists_animations = false;  ///< of files; then a sequence needs no frame
 };
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -126,12 +127,33 @@ PointSource scene_points(const Scene& scene) {
     };
 }
 
-PointSource points_of_frames(const Scene& scene, const SceneAnimation& animation, std::vector<double> frames) {
+namespace {
+
+/// Nothing if the frame cannot be read, and `unreadable` takes that.
+std::optional<SceneChange> readable_change(const SceneAnimation& animation, double frame,
+                                           const UnreadableFrame& unreadable) {
+    try {
+        return animation.at(frame);
+    } catch (const InputError& error) {
+        const FrameError of_frame(frame, error.what());
+        if (!unreadable) throw of_frame;
+        unreadable(of_frame);
+        return std::nullopt;
+    }
+}
+
+}  // namespace
+
+PointSource points_of_frames(const Scene& scene, const SceneAnimation& animation, std::vector<double> frames,
+                             UnreadableFrame unreadable) {
     if (!animation.moves_objects() || frames.empty()) return scene_points(scene);
     const auto trees = std::make_shared<BoxTrees>(scene.meshes.size());
-    return [&scene, &animation, frames = std::move(frames), trees](const PointVisitor& visit) {
+    return [&scene, &animation, frames = std::move(frames), trees,
+            unreadable = std::move(unreadable)](const PointVisitor& visit) {
         for (const double frame : frames) {
-            const SceneChange change = animation.at(frame);
+            const std::optional<SceneChange> found = readable_change(animation, frame, unreadable);
+            if (!found) continue;
+            const SceneChange& change = *found;
             std::vector<const Mesh*> meshes;
             for (const Mesh& mesh : scene.meshes) meshes.push_back(&mesh);
             for (const auto& [number, mesh] : change.meshes) meshes[number] = &mesh;

@@ -6,7 +6,7 @@
 namespace burin {
 
 void fit_depth_ranges(const SceneAnimation& animation, const std::vector<double>& frames, const JobCamera& camera,
-                      Scene& scene) {
+                      const UnreadableFrame& unreadable, Scene& scene) {
     double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
     bool is_orthographic = false;
     for (const double frame : frames) {
@@ -14,7 +14,7 @@ void fit_depth_ranges(const SceneAnimation& animation, const std::vector<double>
         const Camera seen = camera.at(cameras.empty() ? scene.cameras : cameras, scene.picture, frame);
         is_orthographic = seen.orthographic;
         const glm::dmat4 to_view = seen.to_view();
-        for_each_point(points_of_frames(scene, animation, {frame}), [&](const glm::dvec3& p) {
+        for_each_point(points_of_frames(scene, animation, {frame}, unreadable), [&](const glm::dvec3& p) {
             const double distance = -(to_view * glm::dvec4(p, 1.0)).z;
             nearest = std::min(nearest, distance);
             farthest = std::max(farthest, distance);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
+#include <set>
 #include <utility>
 
 #include "base/atomic_file.h"
@@ -116,6 +118,17 @@ bool settle_look(const Arguments& a, const Method& method, bool has_paths, Scene
     return has_hidden_lines;
 }
 
+/// What becomes of frames that cannot be read where cameras and depths are fitted to all: they end the job, or are left
+/// out, each with a note.
+UnreadableFrame frames_left_out(const Arguments& a) {
+    if (!a.keeps_going) return {};
+    return [is_quiet = a.quiet, noted = std::make_shared<std::set<double>>()](const FrameError& error) {
+        if (!noted->insert(error.frame()).second || is_quiet) return;
+        std::fprintf(stderr, "burin: note: %s; what is fitted is fitted to the other frames\n",
+                     printable(error.what(), 4000).c_str());
+    };
+}
+
 /// A text without its numbers.
 std::string without_numbers(std::string text) {
     std::erase_if(text, [](char c) { return c >= '0' && c <= '9'; });
@@ -162,16 +175,17 @@ FrameRenderer::FrameRenderer(const Arguments& a, const Method& method, LoadedInp
     scene.frame.is_of_sequence = plan.is_sequence;
     has_hidden_lines_ = settle_look(a, method, has_paths() && !has_pixels(), scene);
     first_cameras_ = scene.cameras;
-    const PointSource points = points_of_frames(scene, animation_, input.frame_range);
+    const UnreadableFrame unreadable = frames_left_out(a);
+    const PointSource points = points_of_frames(scene, animation_, input.frame_range, unreadable);
     views_ = views_of(scene, points, a);
     if (views_.empty()) {
-        const std::vector<CameraSettings> first = cameras_to_fit(scene, animation_, input.frame_range);
+        const std::vector<CameraSettings> first = cameras_to_fit(scene, animation_, input.frame_range, unreadable);
         job_camera_.emplace(scene, first, points, input.turntable, a);
         camera_ = job_camera_->at(first, scene.picture, plan.frames.front());
         // Only these look at depth in steps.
         const std::vector<double> seen = frames_to_fit(input.frame_range, input.turntable);
         if (plan.is_sequence && moves_ && method.name != "abuffer" && !seen.empty())
-            fit_depth_ranges(animation_, seen, *job_camera_, scene);
+            fit_depth_ranges(animation_, seen, *job_camera_, unreadable, scene);
     }
     blur_ = blur_of(scene, camera_, a, moves_, has_paths());
     if (!views_.empty()) blur_ = {};  // it was refused if it is more than one sub-frame
@@ -246,7 +260,14 @@ LayerSet FrameRenderer::layers_of_picture(const Frame& frame, bool& in_bands) co
 }
 
 LayerSet FrameRenderer::layers_of_first_frame(bool& in_bands) {
-    pose(change_at(plan_.frames.front()));
+    for (auto frame = plan_.frames.begin();; ++frame) {
+        try {
+            pose(change_at(*frame));
+            break;
+        } catch (const InputError&) {
+            if (!arguments_.keeps_going || frame + 1 == plan_.frames.end()) throw;
+        }
+    }
     return layers_of_picture(frame_of(scene(), camera_, arguments_, &posed_.prepared()), in_bands);
 }
 

@@ -63,8 +63,8 @@ class FrameRenderer {
     /// Draws what it was put into, for these files. Throws InputError, UsageError and Interrupted.
     DrawnFrame draw(const std::vector<OutputOptions>& outputs, Progress* progress);
 
-    /// The layers of the first frame, which is posed for that. `in_bands`: gets whether an EXR of it is written while
-    /// it is drawn. Throws InputError and UsageError.
+    /// The layers of the first frame that is posed for that; with --keep-going, of the first that can be read.
+    /// `in_bands`: gets whether an EXR of it is written while it is drawn. Throws InputError and UsageError.
     LayerSet layers_of_first_frame(bool& in_bands);
 
     /// Whether frames may be means of several sub-frames.

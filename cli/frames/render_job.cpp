@@ -9,6 +9,7 @@
 #include "cli/output_options.h"
 #include "image/image_io.h"
 #include "methods/method_table.h"
+#include "scene/animation/scene_animation.h"
 
 namespace burin {
 namespace {
@@ -69,8 +70,14 @@ FrameRenderer RenderJob::load(DescribedInput described) {
     for (std::size_t i = 0; i < outputs_.size(); ++i) {
         outputs_[i].path = plan_.outputs[i].path_of(plan_.frames.front());
     }
-    // Those that are there may stand where nothing can be written.
-    if (!arguments_.skips_existing) check_files_of(plan_, plan_.frames.front());
+    // Those that are there may stand where nothing can be written. A frame that fails need not end the job.
+    const bool must_write = !arguments_.skips_existing && !(arguments_.keeps_going && plan_.is_sequence);
+    try {
+        if (must_write) check_files_of(plan_, plan_.frames.front());
+    } catch (const InputError& error) {
+        if (!plan_.is_sequence) throw;
+        throw FrameError(plan_.frames.front(), error.what());
+    }
     for (const OutputFile& file : once) check_output_file(file.path);
     if (plan_.frames.size() > 1 && !arguments_.is_dry_run) sweep_outputs(plan_);
     return FrameRenderer(arguments_, method_, load_input(std::move(described), arguments_, outputs), plan_, outputs_);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/error.h"
+#include "scene/animation/frame_list.h"
 #include "scene/animation/placeable.h"
 
 namespace burin {
@@ -30,6 +30,9 @@ struct Moved {
 };
 
 }  // namespace
+
+FrameError::FrameError(double frame, const std::string& what)
+    : InputError("frame " + text_of_frame(frame) + ": " + what), frame_(frame) {}
 
 bool SceneAnimation::has_moving_objects() const { return std::any_of(objects.begin(), objects.end(), is_moved); }
 

@@ -2,18 +2,30 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/error.h"
 #include "mesh/animation_choice.h"
 #include "mesh/mesh.h"
 #include "scene/animation/keys.h"
 #include "scene/scene.h"
 
 namespace burin {
+
+/// What is wrong with one frame: "frame 12: walk.0012.obj:3: ...".
+class FrameError : public InputError {
+  public:
+    FrameError(double frame, const std::string& what);
+    double frame() const { return frame_; }
+
+  private:
+    double frame_;
+};
 
 /// What of a scene changes from one frame to another: made beside the drawing of another frame, then applied.
 struct SceneChange {
@@ -99,8 +111,13 @@ class SceneAnimation {
     bool has_moving_cameras() const;
 };
 
+/// Is told of a frame that cannot be read, and may throw.
+using UnreadableFrame = std::function<void(const FrameError&)>;
+
 /// The points of a scene, which is as it was loaded, at all these frames; at rest, if there are none. It borrows both.
-PointSource points_of_frames(const Scene& scene, const SceneAnimation& animation, std::vector<double> frames);
+/// Frames that cannot be read are left out, once `unreadable` was told of them; without it, their FrameError is thrown.
+PointSource points_of_frames(const Scene& scene, const SceneAnimation& animation, std::vector<double> frames,
+                             UnreadableFrame unreadable = {});
 
 /// Puts a frame into the scene that the animation was loaded with.
 void apply(SceneChange&& change, Scene& scene);

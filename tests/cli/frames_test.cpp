@@ -1,5 +1,5 @@
-// Many frames of one scene: which, how they are called, that each is the picture that it is alone, and what is left
-// when a job is stopped, killed, or finds files.
+// Many frames of one scene: which, how they are called, that each is the picture that it is alone, and what becomes of
+// files that are there.
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -297,36 +297,6 @@ TEST_F(Frames, StatisticsHaveALinePerFrame) {
     EXPECT_EQ(saved, 3);
 }
 
-TEST_F(Frames, AFrameThatFailsEndsTheJobUnlessItGoesOn) {
-    fs::create_directory(folder_.file("o.02.exr"));
-    ProgramResult result = render({"s.toml", "-f", "1-4", "-o", "o.##.exr"});
-    EXPECT_EQ(result.status, 1);
-    EXPECT_EQ(result.err, "frame 2: o.02.exr: is a folder; give the name of a file to write\n");
-    EXPECT_TRUE(fs::exists(folder_.file("o.01.exr")));
-    EXPECT_FALSE(fs::exists(folder_.file("o.04.exr")));
-    result = render({"s.toml", "-f", "1-4", "-o", "o.##.exr", "--keep-going", "--stats", "-"});
-    EXPECT_EQ(result.status, 1);
-    EXPECT_EQ(result.err,
-              "frame 2: o.02.exr: is a folder; give the name of a file to write\n1 of 4 frames failed: 2\n");
-    const std::vector<nlohmann::json> all = lines(result.out);
-    ASSERT_EQ(all.size(), 5u);
-    EXPECT_EQ(all[1]["status"], "failed");
-    EXPECT_NE(all[1]["error"].get<std::string>().find("folder"), std::string::npos);
-    EXPECT_EQ(all[4]["failed"], 1);
-    EXPECT_EQ(all[4]["done"], 3);
-    EXPECT_TRUE(fs::exists(folder_.file("o.04.exr")));
-}
-
-TEST_F(Frames, ACameraThatFailsNamesItsFrame) {
-    folder_.write(
-        "c.toml",
-        "[[camera]]\nname='main'\ntarget=[0,0,0]\ninterpolation='linear'\n[[camera.key]]\nframe=1\neye=[0,0,3]\n"
-        "[[camera.key]]\nframe=3\neye=[0,0,-3]\n[[object]]\nshape='box'\n");
-    const ProgramResult result = render({"c.toml", "-r", "32x32", "-f", "1-3", "-o", "c.##.png"});
-    EXPECT_EQ(result.status, 1);
-    EXPECT_EQ(result.err.find("frame 2: c.toml:1:1: the camera's eye and target are the same place"), 0u) << result.err;
-}
-
 void Frames::check_kinds(const std::vector<std::string>& kinds) const {
     for (const std::string& kind : kinds) {
         const Arguments job = {"s.toml", "-f", "1-2", "-o", "x.#." + kind, "-j", "1"};
@@ -435,62 +405,6 @@ TEST_F(Frames, WhatIsNoFileIsNotTrusted) {
     EXPECT_EQ(result.status, 1);
     EXPECT_NE(result.err.find("not a regular file"), std::string::npos) << result.err;
 }
-
-TEST_F(Frames, StopsAfterTheFrameThatIsWritten) {
-    Program program(folder_.path(), {"render", "s.toml", "-f", "1-5000", "-o", "o.#.png", "--stats", "s.json"});
-    while (!fs::exists(folder_.file("o.0003.png"))) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    program.send(SIGTERM);
-    const ProgramResult result = program.wait();
-    EXPECT_EQ(result.status, 130);
-    const std::vector<nlohmann::json> all = lines(content("s.json"));
-    ASSERT_GE(all.size(), 5u);
-    EXPECT_EQ(all.back()["interrupted"], 1);
-    EXPECT_EQ(all[all.size() - 2]["status"], "interrupted");
-    const int last = all[all.size() - 3]["frame"];
-    EXPECT_EQ(all[all.size() - 3]["status"], "done");
-    EXPECT_EQ(result.err, "burin: interrupted after frame " + std::to_string(last) + "; --skip-existing goes on\n");
-    // All files are whole, and there is no other.
-    std::size_t pictures = 0;
-    for (const std::string& name : folder_.names()) pictures += name.starts_with("o.") ? 1 : 0;
-    EXPECT_EQ(pictures, static_cast<std::size_t>(last));
-    EXPECT_EQ(folder_.names().size(), pictures + 3);
-}
-
-/// Kills a job again and again, then lets it end: the files are those of a job that was left alone.
-void kill_and_resume(const TemporaryFolder& folder, int kills, const std::string& kind, unsigned seed) {
-    const auto job = [&](const std::string& name) {
-        return Arguments{"render", "s.toml", "-f", "1-20", "-o", name + ".##." + kind, "--skip-existing", "-q"};
-    };
-    const auto begin = std::chrono::steady_clock::now();
-    ASSERT_EQ(run_burin(folder.path(), job("whole")).status, 0);
-    const auto whole = std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
-    std::mt19937 random(seed);
-    for (int i = 0; i < kills; ++i) {
-        if (i % 10 == 0) {
-            for (int frame = 1; frame <= 20; ++frame)
-                fs::remove(folder.file("k." + std::string(frame < 10 ? "0" : "") + std::to_string(frame) + "." + kind));
-        }
-        Program program(folder.path(), job("k"));
-        std::this_thread::sleep_for(std::chrono::microseconds(random() % static_cast<unsigned>(whole.count())));
-        program.send(SIGKILL);
-        program.wait();
-    }
-    ASSERT_EQ(run_burin(folder.path(), job("k")).status, 0);
-    for (int frame = 1; frame <= 20; ++frame) {
-        const std::string end = "." + std::string(frame < 10 ? "0" : "") + std::to_string(frame) + "." + kind;
-        EXPECT_EQ(read_file(folder.file("k" + end)), read_file(folder.file("whole" + end))) << frame;
-    }
-    EXPECT_EQ(folder.names().size(), 42u);
-}
-
-TEST_F(Frames, KilledAndResumedIsTheSame) { kill_and_resume(folder_, 6, "exr", 7); }
-
-/// Together 200 times.
-class KilledFrames : public Frames, public testing::WithParamInterface<unsigned> {};
-TEST_P(KilledFrames, FiftyTimesIsTheSame) {
-    kill_and_resume(folder_, 50, GetParam() % 2 == 0 ? "exr" : "png", GetParam());
-}
-INSTANTIATE_TEST_SUITE_P(Seeds, KilledFrames, testing::Range(0u, 4u));
 
 }  // namespace
 }  // namespace burin::test::frames_test
