@@ -79,7 +79,7 @@ FrameRenderer RenderJob::load(DescribedInput described) {
         throw FrameError(plan_.frames.front(), error.what());
     }
     for (const OutputFile& file : once) check_output_file(file.path);
-    if (plan_.frames.size() > 1 && !arguments_.is_dry_run) sweep_outputs(plan_);
+    if ((plan_.is_sequence || !must_write) && !arguments_.is_dry_run) sweep_outputs(plan_);
     return FrameRenderer(arguments_, method_, load_input(std::move(described), arguments_, outputs), plan_, outputs_);
 }
 

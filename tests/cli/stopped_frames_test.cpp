@@ -1,6 +1,8 @@
 // What is left of a job that ends early: frames that fail, signals, kills.
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -202,6 +204,31 @@ TEST_F(StoppedFrames, StopsAfterTheFrameThatIsWritten) {
     for (const std::string& name : folder_.names()) pictures += name.starts_with("o.") ? 1 : 0;
     EXPECT_EQ(pictures, static_cast<std::size_t>(last));
     EXPECT_EQ(folder_.names().size(), pictures + 3);
+}
+
+/// The number of a process that has ended.
+std::string dead_process() {
+    const pid_t child = ::fork();
+    if (child == 0) ::_exit(0);
+    ::waitpid(child, nullptr, 0);
+    return std::to_string(child);
+}
+
+TEST_F(StoppedFrames, WhatDeadProcessesLeftIsRemovedEvenIfNothingIsRendered) {
+    char host[65] = "";
+    ::gethostname(host, sizeof host - 1);
+    const std::string behind = ".burin-" + std::string(host) + "-" + dead_process() + "-0.exr";
+    for (const Arguments& files : {Arguments{"-f", "1", "-o", "o.####.exr"}, {"-o", "o.0001.exr"}}) {
+        for (int run = 0; run < 2; ++run) {  // in the second one the frame is there
+            Arguments job = {"s.toml", "--skip-existing"};
+            job.insert(job.end(), files.begin(), files.end());
+            folder_.write(".o.0001" + behind, "x");
+            folder_.write(".p.0001" + behind, "of another output");
+            EXPECT_EQ(render(job).status, 0);
+            EXPECT_FALSE(is_there(".o.0001" + behind)) << run;
+            EXPECT_TRUE(is_there(".p.0001" + behind));
+        }
+    }
 }
 
 std::string name_of(const std::string& job, int frame, const std::string& kind) {
