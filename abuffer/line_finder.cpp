@@ -1,6 +1,8 @@
 #include "abuffer/line_finder.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "abuffer/edges/edge_lines.h"
 #include "abuffer/hidden_pass.h"
@@ -22,6 +24,10 @@ PixelRect region_around(PixelRect crop, int margin_px) {
             down(crop.y1 + margin_px + kMergeBlockPx - 1)};
 }
 
+PixelTiles tiles_of(const Frame& frame, int tile_samples) {
+    return {region_around(rect_with_lines(frame), frame.needs.margin_px()), tile_samples / samples_per_pixel_of(frame)};
+}
+
 /// Finder makes one picture, and has what its passes share.
 class Finder {
   public:
@@ -37,8 +43,7 @@ class Finder {
           screen_(frame.surfaces, frame.criteria, best_kernels(), stats.threads, !has_cap_),
           shaded_(shaded_surfaces_of(frame, stats.threads)),
           tile_samples_(options.tile_samples > 0 ? options.tile_samples : TileGrid::kTileSamples),
-          tiles_(region_around(rect_with_lines(frame), frame.needs.margin_px()),
-                 tile_samples_ / samples_per_pixel_of(frame)),
+          tiles_(tiles_of(frame, tile_samples_)),
           plan_{{{tiles_.rows(), {}}}, {{HiddenPass::tiles_of(frame).rows(), {}}}, {{}}} {
         if (has_cap_) plan_ = plan_slices(frame, screen_, tiles_, options.memory_bytes, stats.threads);
         stats_.prepare_s = watch_.lap();
@@ -137,6 +142,16 @@ void find_lines(const Frame& frame, const RunOptions& options, Film& film, LineD
     stats.threads = resolve_thread_count(options.threads);
     stats.triangles = frame.surfaces.triangle_count();
     Finder(frame, options, film, drawing, sink, stats).run();
+}
+
+SliceCount count_slices(const Frame& frame, std::uint64_t cap_bytes, int threads) {
+    const int count = resolve_thread_count(threads);
+    ScreenSurfaces screen(frame.surfaces, frame.criteria, best_kernels(), count, false);
+    constexpr std::uint64_t kNoCap = std::numeric_limits<std::uint64_t>::max();
+    const SlicePlan plan =
+        plan_slices(frame, screen, tiles_of(frame, TileGrid::kTileSamples), cap_bytes > 0 ? cap_bytes : kNoCap, count);
+    const std::size_t slices = cap_bytes > 0 ? std::max(plan.visible.size(), plan.layers.size()) : 1;
+    return {slices, plan.least_bytes};
 }
 
 }  // namespace burin

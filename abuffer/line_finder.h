@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "lines/line_drawing.h"
 #include "render/film.h"
 #include "render/frame.h"
@@ -16,5 +19,13 @@ namespace burin {
 /// forgotten. nullptr: the drawing keeps all. Adds the times of its stages to `stats`.
 void find_lines(const Frame& frame, const RunOptions& options, Film& film, LineDrawing& drawing, RowSink* sink,
                 RenderStats& stats);
+
+/// In how many slices find_lines() finds a frame under a cap for memory (0: none), and the least cap that it takes.
+struct SliceCount {
+    std::size_t slices = 1;
+    std::uint64_t least_bytes = 0;
+};
+/// Looks at all triangles. Throws LimitError if the cap is less than that.
+SliceCount count_slices(const Frame& frame, std::uint64_t cap_bytes, int threads);
 
 }  // namespace burin

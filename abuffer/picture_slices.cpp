@@ -168,8 +168,9 @@ SlicePlan plan_slices(const Frame& frame, ScreenSurfaces& screen, const PixelTil
     const std::uint64_t left = cap_bytes > lasting ? cap_bytes - lasting : 0;
     plan.visible = cut(frame, visible, left, least);
     plan.layers = cut(frame, layers, left, least);
-    if (least + lasting > cap_bytes) {
-        const std::uint64_t least_mb = (least + lasting + (1 << 20) - 1) >> 20;
+    plan.least_bytes = least + lasting;
+    if (plan.least_bytes > cap_bytes) {
+        const std::uint64_t least_mb = (plan.least_bytes + (1 << 20) - 1) >> 20;
         throw LimitError("this picture", least_mb, "use fewer threads");
     }
     return plan;

@@ -21,6 +21,7 @@ struct SlicePlan {
     std::vector<PictureSlice> layers;   ///< rows of HiddenPass's tiles
     /// All instances, in groups that can be shown at once.
     std::vector<std::vector<std::uint32_t>> groups;
+    std::uint64_t least_bytes = 0;  ///< the least cap that there is a plan for
 };
 
 /// Makes the largest slices within `cap_bytes` of memory. It takes a look at all triangles to know what they will need,

@@ -138,6 +138,10 @@ void draw_found_lines(const Frame& frame, const FoundLines& lines, int threads, 
     draw_ink(frame, inked, threads, film);
 }
 
+SliceCount slices_of(const Frame& frame, std::uint64_t cap_bytes, int threads) {
+    return count_slices(with_fading_creases(frame), cap_bytes, threads);
+}
+
 LineDrawing find_drawing(const Frame& frame, const RunOptions& options, Film& film) {
     RenderStats stats;
     LineDrawing drawing;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "abuffer/line_finder.h"
 #include "lines/line_drawing.h"
 #include "render/method.h"
 #include "render/prepared.h"
@@ -38,6 +39,10 @@ FoundLines find_styled_lines(const Frame& frame, const RunOptions& options, Film
 /// alone. `notes`: gets what users should know.
 void draw_found_lines(const Frame& frame, const FoundLines& lines, int threads, Film& film,
                       std::vector<std::string>& notes);
+
+/// In how many slices a frame is found under a cap for memory (0: none), and the least cap. Throws LimitError if the
+/// cap is less than that.
+SliceCount slices_of(const Frame& frame, std::uint64_t cap_bytes, int threads);
 
 /// Whether the bands of a frame are finished one after the other. They are not where lines depend on others anywhere in
 /// the picture.

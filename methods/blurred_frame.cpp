@@ -53,6 +53,12 @@ std::vector<PixelRect> bands_of(const Film& film, const RunOptions& options) {
     return bands;
 }
 
+/// What is left of a cap for memory by the sums of some rows.
+std::uint64_t cap_beside_sums(const Film& film, PixelRect rows, const RunOptions& options) {
+    const std::uint64_t taken = bytes_per_row(film) * static_cast<std::uint64_t>(rows.height());
+    return options.memory_bytes - std::min(options.memory_bytes / 2, taken);
+}
+
 /// Draws sub-frames of one picture.
 class BlurredFrame {
   public:
@@ -124,10 +130,7 @@ class BlurredFrame {
         std::optional<MatteSums> matte_sums;
         if (sums_mattes(film)) matte_sums.emplace(rows, *film.mattes());
         RunOptions options = options_;
-        if (options.memory_bytes > 0) {
-            const std::uint64_t taken = bytes_per_row(film_) * static_cast<std::uint64_t>(rows.height());
-            options.memory_bytes -= std::min(options.memory_bytes / 2, taken);
-        }
+        options.memory_bytes = cap_beside_sums(film_, rows, options);
         if (in_bands) {
             options.finished_band = [&](std::size_t band) {
                 sums.add(film.band(band));
@@ -191,6 +194,12 @@ RenderStats render_blurred(const Method& method, const Blur& blur, int count, co
 
 std::size_t sub_frames_drawn(int count, const RunOptions& options, const Film& film) {
     return bands_of(film, options).size() * static_cast<std::size_t>(count) + (needs_middle(film) ? 1 : 0);
+}
+
+BlurParts blur_parts(const RunOptions& options, const Film& film) {
+    std::vector<PixelRect> rows = bands_of(film, options);
+    const std::uint64_t cap_bytes = rows.empty() ? options.memory_bytes : cap_beside_sums(film, rows.front(), options);
+    return {std::move(rows), cap_bytes};
 }
 
 }  // namespace burin

@@ -51,4 +51,12 @@ RenderStats render_blurred(const Method& method, const Blur& blur, int count, co
 /// How many pictures render_blurred() draws.
 std::size_t sub_frames_drawn(int count, const RunOptions& options, const Film& film);
 
+/// The rows that sub-frames are drawn and summed for at once, one part of the picture after the other, and the cap for
+/// memory (0: none) that drawing has beside their sums.
+struct BlurParts {
+    std::vector<PixelRect> rows;
+    std::uint64_t cap_bytes = 0;
+};
+BlurParts blur_parts(const RunOptions& options, const Film& film);
+
 }  // namespace burin

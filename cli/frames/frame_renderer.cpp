@@ -22,6 +22,7 @@
 #include "render/mattes.h"
 #include "render/motion.h"
 #include "render/picture_notes.h"
+#include "render/sub_frames.h"
 #include "scene/animation/frame_list.h"
 #include "scene/plain_sheet.h"
 
@@ -257,18 +258,6 @@ LayerSet FrameRenderer::layers_of_picture(const Frame& frame, bool& in_bands) co
     in_bands = are_exr && arguments_.repeat == 0 && views_.empty() && method_.finishes_in_bands != nullptr &&
                method_.finishes_in_bands(frame);
     return all;
-}
-
-LayerSet FrameRenderer::layers_of_first_frame(bool& in_bands) {
-    for (auto frame = plan_.frames.begin();; ++frame) {
-        try {
-            pose(change_at(*frame));
-            break;
-        } catch (const InputError&) {
-            if (!arguments_.keeps_going || frame + 1 == plan_.frames.end()) throw;
-        }
-    }
-    return layers_of_picture(frame_of(scene(), camera_, arguments_, &posed_.prepared()), in_bands);
 }
 
 Moment FrameRenderer::moment_at(double number, double time, MomentUse use) {

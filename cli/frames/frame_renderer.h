@@ -9,6 +9,7 @@
 
 #include "cli/arguments.h"
 #include "cli/blur.h"
+#include "cli/farm/covered_blocks.h"
 #include "cli/frames/fingerprint.h"
 #include "cli/frames/frame_plan.h"
 #include "cli/frames/posed_scene.h"
@@ -63,12 +64,19 @@ class FrameRenderer {
     /// Draws what it was put into, for these files. Throws InputError, UsageError and Interrupted.
     DrawnFrame draw(const std::vector<OutputOptions>& outputs, Progress* progress);
 
-    /// The layers of the first frame that is posed for that; with --keep-going, of the first that can be read.
-    /// `in_bands`: gets whether an EXR of it is written while it is drawn. Throws InputError and UsageError.
-    LayerSet layers_of_first_frame(bool& in_bands);
+    /// What drawing the first frame will take, which is posed for that; with --keep-going, the first that can be read.
+    struct Outlook {
+        LayerSet layers;
+        bool is_in_bands = false;           ///< an EXR is written while it is drawn
+        bool finishes_in_bands = false;     ///< so does the method, whatever is written
+        int sub_frames = 1;                 ///< whose mean it is
+        std::size_t pieces = 1;             ///< in which it is drawn one after the other, under a cap for memory
+        std::uint64_t least_cap_bytes = 0;  ///< that it can be drawn under; 0: there is no cap for it
+        CoveredBlocks covered;
+    };
+    /// Draws nothing. Throws InputError and UsageError.
+    Outlook outlook();
 
-    /// Whether frames may be means of several sub-frames.
-    bool is_blurred() const { return blur_.is_asked_for() && blur_.samples != 1; }
     /// Whether frames change more than their number.
     bool moves() const { return animation_.moves(); }
     const Scene& scene() const { return posed_.scene(); }
@@ -81,6 +89,7 @@ class FrameRenderer {
     bool has_pixels() const {
         return std::any_of(outputs_.begin(), outputs_.end(), [](const auto& o) { return !is_vector(o.format); });
     }
+    void count_pieces(const Frame& frame, Outlook& outlook) const;
     LayerSet layers_of_picture(const Frame& frame, bool& in_bands) const;
     void begin_files(RunOptions& run, bool in_bands, DrawnFrame& drawn, std::atomic<bool>& has_write_failed);
     RenderStats draw_picture(const Frame& frame, const RunOptions& run, Film& film, DrawnFrame& drawn);
