@@ -12,6 +12,7 @@
 
 #include "image/exr_reader.h"
 #include "image/half.h"
+#include "tests/cli/pieces.h"
 #include "tests/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -79,6 +80,22 @@ TEST(Deep, FlattensToTheBeautyByOpenExrsReader) {
     }
 }
 
+/// Has a deep file drawn as a whole and in pieces.
+void expect_same_in_pieces(const TemporaryFolder& folder, const std::string& scene,
+                           const std::vector<std::string>& look, const std::vector<std::string>& more) {
+    std::vector<std::string> picture = {scene, "-q", "--deep", "deep.exr"};
+    picture.insert(picture.end(), more.begin(), more.end());
+    picture.insert(picture.end(), look.begin(), look.end());
+    const std::vector<std::string> options = in_pieces(folder.path(), picture);
+    ASSERT_FALSE(options.empty()) << picture.back();
+    picture.insert(picture.begin(), "render");
+    ASSERT_EQ(run_burin(folder.path(), picture).err, "");
+    const std::string whole = read_file(folder.file("deep.exr"));
+    picture.insert(picture.end(), options.begin(), options.end());
+    ASSERT_EQ(run_burin(folder.path(), picture).err, "");
+    EXPECT_TRUE(read_file(folder.file("deep.exr")) == whole) << picture.back();
+}
+
 TEST(Deep, BlurredItFlattensToTheBlurredBeauty) {
     const TemporaryFolder folder;
     write_file(folder.file("glass.toml"), moving_scene());
@@ -91,9 +108,10 @@ TEST(Deep, BlurredItFlattensToTheBlurredBeauty) {
         const Image flat = read_exr(folder.file("flat.exr")), deep = read_flattened_exr(folder.file("deep.exr"));
         EXPECT_LE(worst_difference(deep, flat), 1.0 / 1024) << blur.front();
         const std::string bytes = read_file(folder.file("deep.exr"));
-        more.insert(more.end(), {"-j", "1", "--memory", "200M"});
+        more.insert(more.end(), {"-j", "1"});
         ASSERT_EQ(render(folder, folder.file("glass.toml"), more).err, "");
         EXPECT_TRUE(read_file(folder.file("deep.exr")) == bytes) << blur.front();
+        expect_same_in_pieces(folder, folder.file("glass.toml"), blur, {"-r", "640x480", "--frame", "2"});
     }
 }
 
@@ -103,7 +121,7 @@ TEST(Deep, BytesDependOnNeitherThreadsNorPiecesNorWhatStandsBeside) {
              {}, {"--hidden", "solid"}, {"--hidden", "dashed"}, {"--style", "technical"}, {"--compression", "none"}}) {
         std::string first;
         for (const std::vector<std::string>& run : std::vector<std::vector<std::string>>{
-                 {"-j", "1"}, {"-j", "2"}, {"-j", "7"}, {"--memory", "200M"}, {"-o", "flat.exr"}, {"-o", "flat.png"}}) {
+                 {"-j", "1"}, {"-j", "2"}, {"-j", "7"}, {"-o", "flat.exr"}, {"-o", "flat.png"}}) {
             std::vector<std::string> more = {"--deep", "deep.exr"};
             more.insert(more.end(), look.begin(), look.end());
             more.insert(more.end(), run.begin(), run.end());
@@ -113,6 +131,9 @@ TEST(Deep, BytesDependOnNeitherThreadsNorPiecesNorWhatStandsBeside) {
             ASSERT_TRUE(bytes == first) << (look.empty() ? "" : look.back()) << " " << run.front() << run.back();
         }
     }
+    for (const std::vector<std::string>& look : std::vector<std::vector<std::string>>{
+             {"-r", "480x320"}, {"-r", "480x320", "--hidden", "solid"}, {"-r", "480x320", "--style", "technical"}})
+        expect_same_in_pieces(folder, scene_file("still_life.toml"), look, {});
     EXPECT_FALSE(std::filesystem::exists(folder.file("still_life.png"))) << "without -o it stands alone";
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "image/exr_reader.h"
+#include "tests/cli/pieces.h"
 #include "tests/cli/program.h"
 #include "tests/support/exr_header.h"
 #include "tests/support/temporary_folder.h"
@@ -28,7 +29,7 @@ ProgramResult render(const TemporaryFolder& folder, const std::string& scene, co
     return run_burin(folder.path(), arguments);
 }
 
-TEST(ExrFiles, BytesDependOnNeitherThreadsNorPieces) {
+TEST(ExrFiles, BytesDependOnNoThreads) {
     const TemporaryFolder folder;
     const std::string layers = "beauty,lines,Z,ids,coverage,lines_hidden,line,motion,crypto";
     for (const std::vector<std::string>& look :
@@ -42,7 +43,7 @@ TEST(ExrFiles, BytesDependOnNeitherThreadsNorPieces) {
                                                {"--compression", "none"}}) {
         std::string first;
         for (const std::vector<std::string>& run :
-             std::vector<std::vector<std::string>>{{"-j", "1"}, {"-j", "2"}, {"-j", "7"}, {"--memory", "200M"}}) {
+             std::vector<std::vector<std::string>>{{"-j", "1"}, {"-j", "2"}, {"-j", "7"}}) {
             std::vector<std::string> more = {"--layers", layers};
             more.insert(more.end(), look.begin(), look.end());
             more.insert(more.end(), run.begin(), run.end());
@@ -51,6 +52,32 @@ TEST(ExrFiles, BytesDependOnNeitherThreadsNorPieces) {
             if (first.empty()) first = bytes;
             ASSERT_TRUE(bytes == first) << (look.empty() ? "" : look.front()) << " " << run.front() << run.back();
         }
+    }
+}
+
+TEST(ExrFiles, BytesDependOnNoPieces) {
+    const TemporaryFolder folder;
+    for (const std::vector<std::string>& look :
+         std::vector<std::vector<std::string>>{{"-r", "480x320"},
+                                               {"-r", "480x320", "--parts"},
+                                               {"-r", "480x320", "--hidden", "solid"},
+                                               {"-r", "640x480", "--hidden", "dashed", "--parts"},
+                                               {"-r", "480x320", "--style", "technical"}}) {
+        std::vector<std::string> picture = {scene_file("still_life.toml"),
+                                            "-q",
+                                            "-o",
+                                            "a.exr",
+                                            "--layers",
+                                            "beauty,lines,Z,ids,coverage,lines_hidden,line,motion,crypto"};
+        picture.insert(picture.end(), look.begin(), look.end());
+        const std::vector<std::string> options = in_pieces(folder.path(), picture);
+        ASSERT_FALSE(options.empty()) << look.back();
+        picture.insert(picture.begin(), "render");
+        ASSERT_EQ(run_burin(folder.path(), picture).err, "");
+        const std::string whole = read_file(folder.file("a.exr"));
+        picture.insert(picture.end(), options.begin(), options.end());
+        ASSERT_EQ(run_burin(folder.path(), picture).err, "");
+        EXPECT_TRUE(read_file(folder.file("a.exr")) == whole) << look.back();
     }
 }
 
