@@ -14,13 +14,15 @@ namespace {
 constexpr double kMeetsPx = 0.5;
 /// A surface in front is farther away than that from what it hides, in pixels' widths.
 constexpr double kInFrontPx = 1.0;
+/// No line counts as steeper: pixels' widths of depth for each pixel on the screen.
+constexpr double kSteepest = 4;
 /// An end so far from those of its chain is none of these.
 constexpr double kWithinPx = 1.0;
 /// What rounding to single precision makes of a gap.
 constexpr double kRoundedGapPx = 1e-5;
 /// Pieces of the same run that are no farther along it are the end itself.
 constexpr double kOwnPx = 2;
-/// Runs that are shorter are crumbs, as lie about the cusps of contours: no line goes on in them.
+/// Runs that are shorter are crumbs, as lie about the cusps of contours: no line goes on in them, nor ends at them.
 constexpr double kCrumbPx = 2;
 /// The direction of a run at a place is that between places so far before and after it.
 constexpr double kDirectionPx = 1.5;
@@ -36,6 +38,13 @@ struct OpenEnd {
     std::size_t which = 0;  // 0: its beginning
     glm::dvec2 place{0.0};  // in the picture
     glm::dvec2 ahead{0.0};  // the direction in which the run ends, of length 1
+};
+
+/// Where a line passes an end, at its depth: it is a corner's other side, and hides nothing of what ends there.
+struct Joint {
+    std::size_t run;  // RunEnds::kNoRun for a boundary
+    LineId line;
+    double at_px;  // along the run
 };
 
 /// What may meet an end: a piece of a run, or a boundary, along which nothing is drawn.
@@ -189,6 +198,7 @@ class RunEnds {
         std::vector<Neighbour> all;
         for (std::size_t i = 0; i < runs.runs.size(); ++i) {
             const LineRun& run = runs.runs[i];
+            if (runs.length_px(run) < kCrumbPx) continue;
             for (std::size_t k = run.first; k < run.first + run.count; ++k) {
                 if (runs.pieces[k].piece.occludes) all.push_back({&runs.pieces[k].piece, i, k});
             }
@@ -241,7 +251,7 @@ class RunEnds {
         if (run.is_hidden) {
             auto n = std::lower_bound(broken_lines_.begin(), broken_lines_.end(), line,
                                       [](const Neighbour& a, LineId b) { return a.piece->line < b; });
-            for (; n != broken_lines_.end() && n->piece->line == line; ++n) meet(end, *n);
+            for (; n != broken_lines_.end() && n->piece->line == line; ++n) meet(end, *n, {});
         }
         // What is farther away than the gaps that are known changes nothing.
         const auto reach_px = [&run, &end](float gap_px) {
@@ -251,8 +261,12 @@ class RunEnds {
         const auto any_reach_px = [&] {
             return reach_px(std::max(run.gaps_px[end.which], run.onward_gaps_px[end.which]));
         };
-        occluder_cells_.for_near(end, any_reach_px, any_reach_px, [&](std::size_t i) { meet(end, occluders_[i]); });
-        corner_cells_.for_near(end, gap_reach_px, any_reach_px, [&](std::size_t i) { meet(end, corners_[i]); });
+        std::vector<Joint> joints;
+        const auto at_end_px = [] { return kMeetsPx; };
+        occluder_cells_.for_near(end, at_end_px, at_end_px, [&](std::size_t i) { join(end, occluders_[i], joints); });
+        occluder_cells_.for_near(end, any_reach_px, any_reach_px,
+                                 [&](std::size_t i) { meet(end, occluders_[i], joints); });
+        corner_cells_.for_near(end, gap_reach_px, any_reach_px, [&](std::size_t i) { meet(end, corners_[i], joints); });
     }
 
     const RunPiece& piece_at(const LineRun& run, std::size_t which) const {
@@ -274,13 +288,18 @@ class RunEnds {
                p.y >= picture_.y1 - kMeetsPx;
     }
 
-    /// The direction of a run near its piece `index`.
-    glm::dvec2 direction_at(const LineRun& run, std::size_t index) const {
+    /// The first and the last piece of what is near the piece `index` of a run.
+    std::pair<std::size_t, std::size_t> around(const LineRun& run, std::size_t index) const {
         const auto pieces = runs_.pieces_of(run);
         std::size_t first = index, last = index;
         while (first > 0 && pieces[index].at_from_px - pieces[first].at_from_px < kDirectionPx) --first;
         while (last + 1 < pieces.size() && pieces[last].at_to_px - pieces[index].at_to_px < kDirectionPx) ++last;
-        const glm::dvec2 way = pieces[last].piece.to - pieces[first].piece.from;
+        return {first, last};
+    }
+    /// The direction of a run near its piece `index`.
+    glm::dvec2 direction_at(const LineRun& run, std::size_t index) const {
+        const auto [first, last] = around(run, index);
+        const glm::dvec2 way = runs_.pieces[run.first + last].piece.to - runs_.pieces[run.first + first].piece.from;
         const double length = glm::length(way);
         return length > 0 ? way / length : glm::dvec2(0);
     }
@@ -295,7 +314,44 @@ class RunEnds {
         return is_before * is_on * std::clamp((cosine - kTurnedCosine) / (kStraightCosine - kTurnedCosine), 0.0, 1.0);
     }
 
-    void meet(const OpenEnd& end, const Neighbour& neighbour) {
+    /// The place of a neighbour that is nearest to an end.
+    struct Nearest {
+        double share = 0;  // of the way along the piece
+        double distance_px = 0;
+    };
+    static Nearest nearest(const OpenEnd& end, const LinePiece& other) {
+        const glm::dvec2 way = other.to - other.from;
+        const double square = glm::dot(way, way);
+        const double share = square > 0 ? std::clamp(glm::dot(end.place - other.from, way) / square, 0.0, 1.0) : 0.0;
+        return {share, glm::distance(end.place, other.from + way * share)};
+    }
+    double at_px(const Neighbour& neighbour, double share) const {
+        if (neighbour.run == kNoRun) return 0;
+        const RunPiece& piece = runs_.pieces[neighbour.index];
+        return glm::mix(piece.at_from_px, piece.at_to_px, share);
+    }
+
+    /// Adds a joint if a boundary passes the end at its depth.
+    void join(const OpenEnd& end, const Neighbour& neighbour, std::vector<Joint>& joints) const {
+        const auto [share, distance_px] = nearest(end, *neighbour.piece);
+        if (neighbour.run == end.run || distance_px > kMeetsPx) return;
+        if (is_in_front(neighbour, share, end)) return;
+        joints.push_back({neighbour.run, neighbour.piece->line, at_px(neighbour, share)});
+    }
+    /// Whether a place of a neighbour is on a line that begins at the end or passes it, so that it is as far along that
+    /// line as it is away: it may come towards the eye from there, but it hides nothing at the end.
+    bool is_joined(const Neighbour& neighbour, const Nearest& at, std::span<const Joint> joints) const {
+        return std::any_of(joints.begin(), joints.end(), [&](const Joint& joint) {
+            if (joint.run != neighbour.run) return false;
+            if (joint.run == kNoRun) return joint.line == neighbour.piece->line;
+            const LineRun& run = runs_.runs[joint.run];
+            double along = std::abs(at_px(neighbour, at.share) - joint.at_px);
+            if (run.is_closed) along = std::min(along, std::max(runs_.length_px(run) - along, 0.0));
+            return along < std::max(kOwnPx, 1 + 2 * at.distance_px);
+        });
+    }
+
+    void meet(const OpenEnd& end, const Neighbour& neighbour, std::span<const Joint> joints) {
         const LinePiece& other = *neighbour.piece;
         const std::size_t own = neighbour.run, index = neighbour.index;
         LineRun& run = runs_.runs[end.run];
@@ -303,24 +359,24 @@ class RunEnds {
         // Whether hidden lines are looked for must not change visible ones.
         if (other.is_hidden() && !run.is_hidden) return;
         const RunPiece& last = piece_at(run, end.which);
-        const glm::dvec2 p = end.place, way = other.to - other.from;
-        const double square = glm::dot(way, way);
-        const double share = square > 0 ? std::clamp(glm::dot(p - other.from, way) / square, 0.0, 1.0) : 0.0;
-        const double distance = glm::distance(p, other.from + way * share);
-        const double gap = std::max(0.0, distance - kMeetsPx);
+        const Nearest at = nearest(end, other);
+        const double gap = std::max(0.0, at.distance_px - kMeetsPx);
         if (gap >= static_cast<double>(kFarthestGapPx)) return;
         if (own == end.run) {
-            const double at = end.which == 0 ? last.at_from_px : last.at_to_px;
+            const double end_at = end.which == 0 ? last.at_from_px : last.at_to_px;
             const RunPiece& piece = runs_.pieces[index];
             // A run that goes straight on is as far along itself as it is away.
-            if (std::max(at - piece.at_to_px, piece.at_from_px - at) < std::max(kOwnPx, 1 + 2 * distance)) return;
+            if (std::max(end_at - piece.at_to_px, piece.at_from_px - end_at) < std::max(kOwnPx, 1 + 2 * at.distance_px))
+                return;
         }
         const bool is_same_line = other.line == last.piece.line && other.is_hidden() != run.is_hidden;
-        if (is_same_line || (other.occludes && is_in_front(other, share, last.piece, end.which))) {
+        if (is_same_line ||
+            (other.occludes && is_in_front(neighbour, at.share, end) && !is_joined(neighbour, at, joints))) {
             meet_at(run, end.which, gap, gap, RunEnd::occluded);
         } else if (other.is_drawn && runs_.length_px(runs_.runs[own]) >= kCrumbPx) {
             const LineRun& line = runs_.runs[own];
-            const double straight = goes_on(end, other.from + way * share - p, direction_at(line, index - line.first));
+            const glm::dvec2 from_end = glm::mix(other.from, other.to, at.share) - end.place;
+            const double straight = goes_on(end, from_end, direction_at(line, index - line.first));
             meet_at(run, end.which, gap, gap + (1 - straight) * static_cast<double>(kFarthestGapPx), RunEnd::corner);
         }
     }
@@ -336,11 +392,33 @@ class RunEnds {
         take(run.gaps_px, gap_px);
         take(run.onward_gaps_px, onward_px);
     }
-    bool is_in_front(const LinePiece& other, double share, const LinePiece& own, std::size_t which) const {
-        const double depth = projection_.distance(which == 0 ? own.nearness_from : own.nearness_to);
+    /// How steeply a line comes towards the eye there: pixels' widths of depth for each pixel on the screen.
+    double steepness(glm::dvec2 from, glm::dvec2 to, float nearness_from, float nearness_to) const {
+        const double a = projection_.distance(nearness_from), b = projection_.distance(nearness_to);
+        const double length = glm::distance(from, to);
+        if (!(length > 0)) return 0;
+        return std::min(std::abs(a - b) / (length * projection_.pixel_size(std::min(a, b))), kSteepest);
+    }
+    double steepness_at(const LineRun& run, std::size_t index) const {
+        const auto [first, last] = around(run, index);
+        const LinePiece &a = runs_.pieces[run.first + first].piece, &b = runs_.pieces[run.first + last].piece;
+        return steepness(a.from, b.to, a.nearness_from, b.nearness_to);
+    }
+    bool is_in_front(const Neighbour& neighbour, double share, const OpenEnd& end) const {
+        const LineRun& run = runs_.runs[end.run];
+        const LinePiece &own = piece_at(run, end.which).piece, &other = *neighbour.piece;
+        const double depth = projection_.distance(end.which == 0 ? own.nearness_from : own.nearness_to);
         const double other_depth = projection_.distance(
             glm::mix(static_cast<double>(other.nearness_from), static_cast<double>(other.nearness_to), share));
-        return depth - other_depth > kInFrontPx * projection_.pixel_size(depth);
+        const double is_nearer_px = (depth - other_depth) / projection_.pixel_size(depth);
+        if (is_nearer_px <= kInFrontPx) return false;
+        // Where lines are steep, their depths are as inexact as their places are.
+        const double own_steepness = steepness_at(run, end.which == 0 ? 0 : run.count - 1);
+        const double other_steepness =
+            neighbour.run == kNoRun
+                ? steepness(other.from, other.to, other.nearness_from, other.nearness_to)
+                : steepness_at(runs_.runs[neighbour.run], neighbour.index - runs_.runs[neighbour.run].first);
+        return is_nearer_px > kInFrontPx + kMeetsPx * (own_steepness + other_steepness);
     }
 
     LineRuns& runs_;

@@ -66,6 +66,39 @@ double distance_to(const LinePiece& piece, glm::dvec2 p) {
                          piece.from + way * std::clamp(glm::dot(p - piece.from, way) / glm::dot(way, way), 0.0, 1.0));
 }
 
+/// An edge that joins a corner and comes towards the eye hides nothing there, however its pieces are divided.
+TEST(RunEnds, EdgesOfACornerDoNotHideEachOther) {
+    for (const double first_px : {0.3, 1.0, 5.0}) {
+        for (const bool is_joined : {true, false}) {
+            Lines lines;
+            lines.add({60, 100}, {100, 100}, 0, false, false);
+            // Two pixels' widths nearer for each pixel; what is not joined begins so near.
+            const double depth = is_joined ? 0 : -20;
+            const double ends[] = {0, first_px, 11, 40};
+            for (int i = 0; i < 3; ++i) {
+                RunPiece piece;
+                piece.piece.from = {100, 100 + ends[i]};
+                piece.piece.to = {100, 100 + ends[i + 1]};
+                piece.piece.line = LineId::of_edge(7, 0);
+                piece.piece.nearness_from = static_cast<float>(2 * ends[i] - depth);
+                piece.piece.nearness_to = static_cast<float>(2 * ends[i + 1] - depth);
+                piece.piece.occludes = true;
+                piece.at_from_px = ends[i];
+                piece.at_to_px = ends[i + 1];
+                lines.runs.pieces.push_back(piece);
+            }
+            LineRun run;
+            run.first = 1;
+            run.count = 3;
+            lines.runs.runs.push_back(run);
+            lines.find_ends();
+            const LineRun& level = lines.runs.runs[0];
+            EXPECT_EQ(level.ends[1], is_joined ? RunEnd::corner : RunEnd::occluded) << first_px;
+            EXPECT_EQ(level.onward_gaps_px[1], is_joined ? kFarthestGapPx : 0) << first_px;
+        }
+    }
+}
+
 class RandomLines : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(RandomLines, HaveTheGapsToTheNearestOthers) {
