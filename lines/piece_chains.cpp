@@ -197,15 +197,20 @@ void PieceChains::bridge_gaps() {
         double length_px = 0;
         for (const std::uint32_t end : ends) length_px += length(end);
         if (length_px < kCrumbPx) return;
+        // No part of a short chain says both where it comes from and where it goes, as if it ran on in itself.
+        const double direction_px = std::min(kDirectionPx, 0.5 * length_px);
         const auto way_in = [&](bool from_end) {
             const std::size_t n = ends.size();
             const glm::dvec2 from = from_end ? place(ends[n - 1] ^ 1) : place(ends[0]);
             glm::dvec2 to = from;
             double way_px = 0;
-            for (std::size_t i = 0; i < n && way_px < kDirectionPx; ++i) {
+            for (std::size_t i = 0; i < n && way_px < direction_px; ++i) {
                 const std::uint32_t end = from_end ? ends[n - 1 - i] : ends[i];
-                way_px += length(end);
-                to = from_end ? place(end) : place(end ^ 1);
+                const double own_px = length(end), rest_px = direction_px - way_px;
+                const glm::dvec2 near = to, far = from_end ? place(end) : place(end ^ 1);
+                const bool is_long = direction_px == kDirectionPx || own_px <= rest_px;
+                to = is_long ? far : near + (far - near) * (rest_px / own_px);
+                way_px += own_px;
             }
             const double distance = glm::distance(from, to);
             return distance > 0 ? (to - from) / distance : glm::dvec2(0.0);
