@@ -74,7 +74,9 @@ class VisiblePass::Worker {
   public:
     Worker(const Frame& frame, const ScreenSurfaces& screen, const ShadedSurfaces* shaded, const TileKernels& kernels,
            const TriangleBins& bins, const FineEdges* fine_edges, KnownBorders* known_borders, PixelRect region)
-        : fine_edges_(fine_edges),
+        : frame_(frame),
+          screen_(screen),
+          fine_edges_(fine_edges),
           bins_(bins),
           surface_(frame, screen, bins, samples_per_pixel_of(frame), kernels),
           line_tile_(frame, screen, bins, surface_, kernels),
@@ -100,7 +102,7 @@ class VisiblePass::Worker {
             times.raster += lap.lap();
             line_tile_.find_lines(tile, lines_);
             if (fine_edges_ != nullptr) add_fine_lines(tile);
-            if (needs_beyond_) find_surfaces_beyond(surface_.samples(), lines_);
+            if (needs_beyond_) find_surfaces_beyond(surface_.samples(), screen_, frame_.surfaces.projection, lines_);
             times.lines += lap.lap();
             filler_.fill(surface_, film);
         }
@@ -118,6 +120,8 @@ class VisiblePass::Worker {
         fine_lines_->find(tile, parts_, lines_);
     }
 
+    const Frame& frame_;
+    const ScreenSurfaces& screen_;
     const FineEdges* fine_edges_;
     const TriangleBins& bins_;
     SurfaceTile surface_;

@@ -328,6 +328,28 @@ TEST(StyledPlaces, CopiesAreStrokesOfTheirOwn) {
     std::sort(chains.begin(), chains.end());
     EXPECT_EQ(std::unique(chains.begin(), chains.end()), chains.end());
 }
+/// Where another object begins behind a line, its pieces do, too, to a sample: sets that ask for it change there.
+TEST(StyledPlaces, PiecesEndWhereWhatIsBehindThemDoes) {
+    for (int step = 0; step < 16; ++step) {
+        const double end = 90.3 + 0.5 * step;
+        const ShadedScene scene({rectangle(20, 20, 180, 50, 0), rectangle(10, 10, end, 90, -40)},
+                                pixel_camera(200, 100),
+                                sheet_of(R"("border")", "width = 2", "select = \"object2 == 0\"\n"), 200, 100);
+        const FoundLines lines = scene.found();
+        int before = 0, behind = 0;
+        for (std::size_t i = 0; i < lines.sides.size(); ++i) {
+            const LinePiece& piece = lines.runs.pieces[i].piece;
+            if (lines.sides[i].front_object != 1 || piece.from.y != piece.to.y) continue;
+            const double low = std::min(piece.from.x, piece.to.x), high = std::max(piece.from.x, piece.to.x);
+            const bool is_before = lines.sides[i].other_object != 0;
+            (is_before ? before : behind) += 1;
+            EXPECT_TRUE(is_before ? high <= end + 0.5 : low >= end - 0.5) << end << ": " << low << " to " << high;
+        }
+        EXPECT_GT(before, 0);
+        EXPECT_GT(behind, 0);
+    }
+}
+
 TEST(StyledPlaces, ShortRunsFadeIn) {
     const auto opacity = [](double length) {
         const InkedLines lines = level(100, 100 + length, 50.5, "width = 2\nmin_length = [10, 30]").inked();
