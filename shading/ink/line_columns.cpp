@@ -93,9 +93,20 @@ double LineColumns::depth_at(const LineSample& sample) const {
         glm::mix(static_cast<double>(p.nearness_from), static_cast<double>(p.nearness_to), sample.share));
 }
 
+std::uint32_t LineColumns::anchor_of(std::size_t piece) const {
+    const LineSides& sides = lines_.sides[piece];
+    const std::uint32_t front = sides.front_object, other = sides.other_object;
+    if (sides.is_beyond || front == 0 || other == 0 || front == other) return front;
+    const auto key = [this](std::uint32_t object) {
+        const ObjectOfLines& o = lines_.objects[object - 1];
+        return LineHash(0).add(std::string_view(o.name)).add(std::uint64_t{o.same_name_before}).bits();
+    };
+    return key(other) < key(front) ? other : front;
+}
+
 LineHash LineColumns::object_hash(std::size_t piece, const SampleVariant& variant) const {
     LineHash hash(variant.seed);
-    if (const std::uint32_t object = object_of(piece); object > 0) {
+    if (const std::uint32_t object = anchor_of(piece); object > 0) {
         const ObjectOfLines& o = lines_.objects[object - 1];
         hash.add(std::string_view(o.name)).add(std::uint64_t{o.same_name_before});
     }
@@ -110,7 +121,7 @@ LineHash LineColumns::chain_hash(const LineRun& run, const SampleVariant& varian
 LineColumns::InObject LineColumns::in_object(const LineSample& sample) const {
     const glm::dvec3 view = position_of(sample);
     const double px_size = lines_.projection.pixel_size(depth_at(sample));
-    const std::uint32_t object = object_of(sample.piece);
+    const std::uint32_t object = anchor_of(sample.piece);
     if (object == 0) return {view, px_size};
     const ObjectOfLines& o = lines_.objects[object - 1];
     return {glm::dvec3(o.from_view * glm::dvec4(view, 1.0)), px_size * o.units_per_view};

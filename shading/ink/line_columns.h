@@ -59,6 +59,9 @@ class LineColumns {
 
     std::uint32_t object_of(std::size_t piece) const { return lines_.sides[piece].front_object; }
     std::uint32_t material_of(std::size_t piece) const { return lines_.sides[piece].front_material; }
+    /// The object on which noise stands. Where two objects meet, which one is in front may change from one picture to
+    /// the next, and noise must not jump then: it is one of the two, by a hash of their names.
+    std::uint32_t anchor_of(std::size_t piece) const;
     /// Hashes what an object, a chain is; the same in all frames.
     LineHash object_hash(std::size_t piece, const SampleVariant& variant) const;
     LineHash chain_hash(const LineRun& run, const SampleVariant& variant) const;
