@@ -71,7 +71,9 @@ class StrokeMaker {
         const bool is_loop = run.is_closed && has_begin && has_end;
         if (style_.smooth_px > 0) smooth_ink(stroke.path, static_cast<double>(style_.smooth_px), is_loop);
         if (style_.has_overshoot && !is_loop) {
-            const auto px = static_cast<double>(value_of(stroke.chain, ChainValue::overshoot));
+            // Short runs, as crumbs beside cusps, come and go: they grow by no more than they are long.
+            const double px = std::min(static_cast<double>(value_of(stroke.chain, ChainValue::overshoot)),
+                                       lines_.runs().length_px(run));
             const auto lengthen = [&](bool at_begin, std::size_t which) {
                 const double share = freedom(run.onward_gaps_px[which]);
                 if (!run.is_closed && share > 0) lengthen_end(stroke.path, at_begin, px * share);

@@ -52,24 +52,30 @@ void lengthen_end(StrokePath& path, bool is_first, double px) {
         path = end > begin ? cut(path, begin, end) : StrokePath();
         return;
     }
-    // The direction is that of the last part that has one.
+    // The direction is that of the last few pixels: last parts may be short, and run anywhere.
+    constexpr double kDirectionPx = 4;
     const std::size_t n = path.size();
     const auto point = [&](std::size_t i) -> const PathPoint& { return path[is_first ? i : n - 1 - i]; };
-    for (std::size_t i = 1; i < n; ++i) {
-        const glm::dvec2 way = point(0).ink.place - point(i).ink.place;
-        const double length = glm::length(way);
-        if (length < 1.0 / 64 && i + 1 < n) continue;
-        if (length == 0) return;
-        PathPoint beyond = point(0);
-        beyond.ink.place += way * (px / length);
-        beyond.at_px += is_first ? -px : px;
-        if (is_first) {
-            path.insert(path.begin(), beyond);
-        } else {
-            path.back().ends_piece = false;
-            path.push_back(beyond);
-        }
-        return;
+    const glm::dvec2 end = point(0).ink.place;
+    glm::dvec2 from = end;
+    double way_px = 0;
+    for (std::size_t i = 1; i < n && way_px < kDirectionPx; ++i) {
+        const glm::dvec2 next = point(i).ink.place;
+        const double part_px = glm::distance(point(i - 1).ink.place, next), rest_px = kDirectionPx - way_px;
+        from = part_px > rest_px ? glm::mix(point(i - 1).ink.place, next, rest_px / part_px) : next;
+        way_px += part_px;
+    }
+    const glm::dvec2 way = end - from;
+    const double length = glm::length(way);
+    if (length == 0) return;
+    PathPoint beyond = point(0);
+    beyond.ink.place += way * (px / length);
+    beyond.at_px += is_first ? -px : px;
+    if (is_first) {
+        path.insert(path.begin(), beyond);
+    } else {
+        path.back().ends_piece = false;
+        path.push_back(beyond);
     }
 }
 

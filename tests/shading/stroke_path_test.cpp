@@ -40,6 +40,22 @@ TEST(StrokePath, AveragesStayWithinWhatIsAveraged) {
     }
 }
 
+/// A last part of a hair's length may run anywhere: the line goes on as its last pixels do.
+TEST(StrokePath, GrowsInTheDirectionOfItsLastPixels) {
+    for (const bool is_first : {false, true}) {
+        StrokePath path = {point(0, 1), point(50, 1), point(50.05, 1)};
+        path.back().ink.place = {50, 0.05};
+        if (is_first) {
+            std::swap(path.front().ink.place, path.back().ink.place);
+            path[1].at_px = 0.05;
+        }
+        lengthen_end(path, is_first, 10);
+        const InkPoint& end = is_first ? path.front().ink : path.back().ink;
+        EXPECT_NEAR(end.place.x, 60, 0.1);
+        EXPECT_NEAR(end.place.y, 0.05, 0.2);
+    }
+}
+
 TEST(StrokePath, AveragesOfAStepAreARamp) {
     StrokePath path = {point(0, 1), point(50, 1), point(50, 3), point(100, 3)};
     smooth_ink(path, 10, false);
