@@ -131,8 +131,7 @@ void run_restyle(const Arguments& a) {
     frame.criteria.classes = file.lines.classes;
     if (const std::string missing = missing_for(*scene.sheet, frame.sheet->needs(), file.lines); !missing.empty()) {
         const SheetNeeds& needs = frame.sheet->needs();
-        const std::string again = needs.variables.has(Variable::lit) ? "render with this sheet instead"
-                                  : find_all_keeps(*scene.sheet, needs, file.lines)
+        const std::string again = find_all_keeps(*scene.sheet, needs, file.lines)
                                       ? "render again with this sheet, or with --find all, and --save-lines"
                                       : "render again with this sheet and --save-lines";
         throw InputError(a.input + ": the file lacks what the style sheet needs: " + missing + "; " + again);

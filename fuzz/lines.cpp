@@ -27,7 +27,7 @@ std::string all_classes() {
     return "classes = [" + list + "]\n";
 }
 
-/// Plain lines, and lines that all kinds of variables decide: the second needs more than many files have.
+/// Plain lines, and lines that all kinds of variables decide: the others need more than many files have.
 const std::string kSheets[] = {"[[set]]\nname = \"all\"\n" + all_classes() + R"toml(
 style = "ink"
 [style.ink]
@@ -49,7 +49,9 @@ taper = { start = 4, end = 4 }
 overshoot = 2
 copies = 2
 wobble = { amplitude = 1, wavelength = 8 }
-)toml"};
+)toml",
+                               "[[set]]\nname = \"all\"\nclasses = [\"border\", \"silhouette\"]\nstyle = \"ink\"\n"
+                               "[style.ink]\nwidth = \"=1 + lit\"\n"};
 
 void draw(const burin::FoundLines& lines, const std::string& text) {
     burin::Scene scene;

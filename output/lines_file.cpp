@@ -15,6 +15,7 @@
 #include "mesh/gltf_json.h"
 #include "output/lines_format.h"
 #include "scene/animation/frame_list.h"
+#include "shading/surface/shadow_casters.h"
 
 namespace burin {
 namespace {
@@ -169,6 +170,16 @@ void add_chains(const FoundLines& lines, ArrayWriter& out) {
                           [&](std::size_t i, std::uint8_t* v) { v[0] = b[i].front_on_left ? kFrontOnLeft : 0; });
 }
 
+/// What casts shadows: triangles in view space.
+void add_casters(const ShadowCasters& casters, ArrayWriter& out) {
+    const auto all = casters.casters();
+    out.add<double>("casters", all.size(), 10, [&](std::size_t i, double* v) {
+        for (int k = 0; k < 3; ++k)
+            v[k] = all[i].corner[k], v[3 + k] = all[i].edges[0][k], v[6 + k] = all[i].edges[1][k];
+        v[9] = all[i].nearness;
+    });
+}
+
 void add_picture(const FoundLines& lines, const KeptSurface& surface, ArrayWriter& out) {
     out.add<double>("camera", 4, 4, [&](std::size_t i, double* v) {
         for (int r = 0; r < 4; ++r) v[r] = lines.camera_to_world[static_cast<int>(i)][r];
@@ -222,6 +233,12 @@ std::map<std::string, std::string> metadata_of(const FoundLines& lines, const Ke
         data["light"] =
             nlohmann::json{light->is_at_point ? 1 : 0, light->place.x, light->place.y, light->place.z}.dump();
     }
+    if (lines.casters) {
+        const ViewLight& light = lines.casters->light();
+        data["shadow_light"] =
+            nlohmann::json{light.is_at_point ? 1 : 0, light.place.x, light.place.y, light.place.z}.dump();
+        data["shadow_distance"] = number(lines.casters->least_distance());
+    }
     data["smooth_contours"] = lines.has_smooth_contours ? "1" : "0";
     data["filter"] = std::to_string(static_cast<int>(lines.filter));
     if (!lines.surface.attributes.empty()) data["attributes"] = names_as_json(lines.surface.attributes);
@@ -253,6 +270,7 @@ void write_lines_file(ByteSink& file, const FoundLines& lines, const KeptSurface
     add_pieces(lines, out);
     add_chains(lines, out);
     add_picture(lines, surface, out);
+    if (lines.casters) add_casters(*lines.casters, out);
     std::map<std::string, std::string> metadata = metadata_of(lines, surface);
     if (!fingerprint.empty()) metadata["fingerprint"] = fingerprint;
     out.write(file, metadata);

@@ -5,6 +5,8 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string_view>
 #include <type_traits>
 
@@ -14,6 +16,7 @@
 #include "output/lines_file.h"
 #include "output/lines_format.h"
 #include "scene/animation/frame_list.h"
+#include "shading/surface/shadow_casters.h"
 
 namespace burin {
 namespace {
@@ -326,6 +329,25 @@ void read_surface_values(const ArrayReader& in, const MetadataReader& data, Foun
     }
 }
 
+/// What casts shadows in the light that the lines were found in, if it was kept.
+void read_casters(const ArrayReader& in, const MetadataReader& data, FoundLines& lines) {
+    const std::optional<ViewLight> light = data.light("shadow_light");
+    if (!light) return;
+    // Single precision has no larger numbers, and products of a few of these can be computed with.
+    constexpr double kFarthest = 1e40;
+    const auto is_far = [](double v) { return !(std::abs(v) <= kFarthest); };
+    const double distance = data.number("shadow_distance");
+    if (!(distance >= 0) || is_far(distance)) in.fail("__metadata__.shadow_distance: is out of range");
+    std::vector<ShadowCasters::Caster> casters;
+    in.take<double>("casters", ArrayReader::kAnyRows, 10, [&](std::size_t i, const double* v) {
+        if (std::any_of(v, v + 10, is_far)) in.fail_at("casters", i, "is out of range");
+        casters.push_back(
+            {{0, static_cast<std::uint32_t>(i)}, {v[0], v[1], v[2]}, {{v[3], v[4], v[5]}, {v[6], v[7], v[8]}}, v[9]});
+    });
+    if (casters.size() >= std::numeric_limits<std::uint32_t>::max()) in.fail("casters: has too many rows");
+    lines.casters = std::make_shared<const ShadowCasters>(std::move(casters), *light, distance);
+}
+
 void read_chains(const ArrayReader& in, FoundLines& lines) {
     auto& runs = lines.runs.runs;
     std::vector<std::uint64_t> first;
@@ -398,6 +420,7 @@ LinesFile read_lines_file(const std::string& path) {
     read_pieces(in, result.lines);
     read_surface_values(in, data, result.lines);
     read_chains(in, result.lines);
+    read_casters(in, data, result.lines);
     if (in.has("surface")) {
         KeptSurface& surface = result.surface;
         surface.width = static_cast<int>(data.integer("surface_width", 1, 65535));

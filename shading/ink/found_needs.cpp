@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "shading/surface/shadow_casters.h"
+
 namespace burin {
 namespace {
 
@@ -14,6 +16,12 @@ bool has_other_creases(const StyleSheet& style, const FoundLines& lines) {
 }
 bool has_other_contours(const StyleSheet& style, const FoundLines& lines) {
     return style.smooth_contours && *style.smooth_contours != lines.has_smooth_contours;
+}
+
+/// As lights_of() has it for a frame.
+ViewLight key_light_of(const StyleSheet& style, const FoundLines& lines) {
+    if (style.light) return {false, glm::normalize(*style.light)};
+    return lines.scene_light.value_or(light_at_eye(lines.projection));
 }
 
 }  // namespace
@@ -43,8 +51,11 @@ std::string missing_for(const StyleSheet& style, const SheetNeeds& sheet, const 
     add(sheet.tells_invisibility && !lines.tells_invisibility, "how many surfaces are in front (qi)");
     add(sheet.sides && !lines.has_beyond, "the surfaces behind lines");
     add(needs.normals && !lines.has_normals, "normals");
-    add(sheet.variables.has(Variable::lit) && (!lines.casters || style.light != lines.light),
-        "what casts shadows (lit), which a file of lines never has");
+    if (sheet.variables.has(Variable::lit)) {
+        add(!lines.casters, "what casts shadows (lit)");
+        add(lines.casters && lines.casters->light() != key_light_of(style, lines),
+            "what casts shadows (lit) in the light of this sheet");
+    }
     add((needs.chains && !lines.has_chains) || (needs.hidden_chains && !lines.has_hidden_chains), "chains");
     add(needs.surface.kr && !lines.surface.kr, "curvature (kr)");
     add(needs.surface.uv && !lines.surface.uv, "texture coordinates (u, v)");

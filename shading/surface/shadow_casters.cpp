@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "base/interrupt.h"
 
@@ -62,22 +63,6 @@ Polygon clipped(const Polygon& polygon, const Inside& inside) {
 ShadowCasters::ShadowCasters(const SurfaceSet& surfaces, const ViewLight& light, const std::vector<bool>& is_caster)
     : light_(light) {
     least_distance_ = 8 * surfaces.coordinate_error;
-    if (light.is_at_point) {
-        for (int axis = 0; axis < 3; ++axis) {
-            for (const double sign : {1.0, -1.0}) {
-                View view;
-                view.forward = view.right = view.up = glm::dvec3(0.0);
-                view.forward[axis] = sign;
-                view.right[(axis + 1) % 3] = view.up[(axis + 2) % 3] = 1;
-                views_.push_back(view);
-            }
-        }
-    } else {
-        const glm::dvec3 l = light.place;
-        const glm::dvec3 right =
-            glm::normalize(glm::cross(l, std::abs(l.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
-        views_.push_back({right, glm::cross(l, right), l, -1});
-    }
     for (std::uint32_t i = 0; i < surfaces.instances.size(); ++i) {
         throw_if_interrupted();
         const Mesh& mesh = *surfaces.instances[i].mesh;
@@ -97,6 +82,32 @@ ShadowCasters::ShadowCasters(const SurfaceSet& surfaces, const ViewLight& light,
             }
             casters_.push_back(caster);
         }
+    }
+    sort();
+}
+
+ShadowCasters::ShadowCasters(std::vector<Caster> casters, const ViewLight& light, double least_distance)
+    : light_(light), least_distance_(least_distance), casters_(std::move(casters)) {
+    sort();
+}
+
+/// Makes the views from the light, and sorts the casters to the cells of their grids.
+void ShadowCasters::sort() {
+    if (light_.is_at_point) {
+        for (int axis = 0; axis < 3; ++axis) {
+            for (const double sign : {1.0, -1.0}) {
+                View view;
+                view.forward = view.right = view.up = glm::dvec3(0.0);
+                view.forward[axis] = sign;
+                view.right[(axis + 1) % 3] = view.up[(axis + 2) % 3] = 1;
+                views_.push_back(view);
+            }
+        }
+    } else {
+        const glm::dvec3 l = light_.place;
+        const glm::dvec3 right =
+            glm::normalize(glm::cross(l, std::abs(l.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
+        views_.push_back({right, glm::cross(l, right), l, -1});
     }
     for (std::size_t v = 0; v < views_.size(); ++v) {
         std::vector<std::uint32_t> seen;

@@ -22,16 +22,25 @@ class ShadowCasters {
     /// `is_caster`, per material of the scene: whether surfaces of it cast shadows.
     ShadowCasters(const SurfaceSet& surfaces, const ViewLight& light, const std::vector<bool>& is_caster);
 
-    /// Whether the light is free at a place on, or just in front of, a triangle's surface; the triangle itself never
-    /// hides it.
-    bool is_lit(const glm::dvec3& place, SurfaceId own) const;
-
-  private:
+    /// A triangle that hides the light: a corner, the ways from it to the two others, and how near to the light it
+    /// comes.
     struct Caster {
         SurfaceId id;
         glm::dvec3 corner, edges[2];
         double nearness;  // no place of it is nearer to the light
     };
+    /// The same of casters that another one had: of its light, and `least_distance` of it.
+    ShadowCasters(std::vector<Caster> casters, const ViewLight& light, double least_distance);
+
+    const ViewLight& light() const { return light_; }
+    double least_distance() const { return least_distance_; }
+    std::span<const Caster> casters() const { return casters_; }
+
+    /// Whether the light is free at a place on, or just in front of, a triangle's surface; the triangle itself never
+    /// hides it.
+    bool is_lit(const glm::dvec3& place, SurfaceId own) const;
+
+  private:
     /// A square part of a view from the light, divided into side x side cells. Cells follow each other row by row.
     struct Grid {
         glm::dvec2 corner{0.0};
@@ -54,6 +63,7 @@ class ShadowCasters {
         int count = 0;
     };
 
+    void sort();
     glm::dvec2 in_view(const View& view, const glm::dvec3& place) const;
     std::size_t view_of(const glm::dvec3& place) const;
     Outline outline_in(const View& view, const Caster& caster) const;

@@ -14,6 +14,7 @@
 #include "base/parallel.h"
 #include "base/stream_store.h"
 #include "shading/ink/found_needs.h"
+#include "shading/surface/shadow_casters.h"
 #include "tests/support/random.h"
 #include "tests/support/shaded_scene.h"
 #include "tests/support/temporary_folder.h"
@@ -293,6 +294,79 @@ class ChangedFile {
     bool was_cut_ = false;
 };
 
+/// A ball that casts its shadow on a box, so that lines run from light into shadow.
+std::string lit_scene(const char* light = "direction = [-0.4, 0.3, 1]") {
+    return std::string("[[light]]\n") + light +
+           "\n[[object]]\nshape = \"box\"\nname = \"box\"\n[[object]]\nshape = \"sphere\"\nradius = 0.4\n"
+           "segments = 12\nrings = 6\ntranslate = [-0.2, 0.4, 1.2]\n";
+}
+const std::string kLitInk = "width = \"=1 + 3 * lit\"\ntaper = { start = 4 }";
+
+TEST(LinesFile, KeepsWhatCastsShadowsIfTheSheetReadsIt) {
+    const TemporaryFolder folder;
+    const std::string classes = R"("silhouette", "crease", "polygon")", plain = "width = 2";
+    for (const char* light : {"direction = [-0.4, 0.3, 1]", "position = [-1, 1.5, 4]"}) {
+        const ShadedScene scene(lit_scene(light), sheet_of(classes, kLitInk));
+        const FoundLines lines = scene.found();
+        const std::string bytes = bytes_of(lines);
+        const LinesFile read = read_lines_file(folder.write("a.lines", bytes));
+        EXPECT_EQ(bytes_of(read.lines), bytes);
+        expect_equal(drawn(scene, lines), drawn(scene, read.lines));
+        // Another sheet has its samples elsewhere; and what is lit differs from what is not.
+        for (const char* ink : {"width = \"=2 + 2 * lit * s / 10\"", "width = 4"}) {
+            const ShadedScene other(lit_scene(light), sheet_of(classes, ink));
+            const Frame frame = other.frame(other.whole());
+            EXPECT_EQ(missing_for(*frame.scene->sheet, frame.sheet->needs(), read.lines), "");
+            expect_equal(drawn(other, lines), drawn(other, read.lines));
+        }
+        FoundLines all_lit = lines;
+        all_lit.casters = nullptr;
+        EXPECT_FALSE(same_bits(drawn(scene, lines), drawn(scene, all_lit)));
+    }
+    // Nothing of it is kept where nobody reads it.
+    const std::string bytes = bytes_of(ShadedScene(lit_scene(), sheet_of(classes, plain)).found());
+    EXPECT_EQ(bytes.find("casters"), std::string::npos);
+    EXPECT_EQ(bytes.find("shadow_"), std::string::npos);
+}
+
+TEST(LinesFile, SaysWhereShadowsAreOfAnotherLight) {
+    const TemporaryFolder folder;
+    const std::string classes = R"("silhouette", "crease", "polygon")", other_light = "light = [1, 1, 1]\n";
+    const auto missing = [&](const std::string& saved, const std::string& asked) {
+        const LinesFile read =
+            read_lines_file(folder.write("a.lines", bytes_of(ShadedScene(lit_scene(), saved).found())));
+        const ShadedScene scene(lit_scene(), asked);
+        const Frame frame = scene.frame(scene.whole());
+        return missing_for(*frame.scene->sheet, frame.sheet->needs(), read.lines);
+    };
+    const std::string own = sheet_of(classes, kLitInk), turned = other_light + own;
+    EXPECT_EQ(missing(own, own), "");
+    EXPECT_EQ(missing(turned, turned), "");
+    EXPECT_EQ(missing(own, turned), "what casts shadows (lit) in the light of this sheet");
+    EXPECT_EQ(missing(turned, own), "what casts shadows (lit) in the light of this sheet");
+    EXPECT_EQ(missing(sheet_of(classes, "width = \"=1 + light\"\ntaper = { start = 4 }"), own),
+              "what casts shadows (lit)");
+}
+
+TEST(LinesFile, WhatIsWrongWithShadowsIsNamed) {
+    const std::string bytes = bytes_of(ShadedScene(lit_scene(), sheet_of(R"("crease")", kLitInk)).found());
+    using Json = nlohmann::ordered_json;
+    const auto with = [&](const char* key, const char* value) {
+        return with_directory(bytes, [&](Json& d) { d["__metadata__"][key] = value; });
+    };
+    expect_error(with("shadow_light", "[0, 0, 0, 2]"), "the direction must have the length 1");
+    expect_error(with("shadow_light", "[1, 0, 1e300, 2]"), "shadow_light[2]");
+    expect_error(with("shadow_distance", "-1"), "shadow_distance: is out of range");
+    expect_error(with_directory(bytes, [](Json& d) { d["__metadata__"].erase("shadow_distance"); }), "shadow_distance");
+    expect_error(with_directory(bytes, [](Json& d) { d["casters"]["dtype"] = "F32"; }), "casters: dtype must be F64");
+    expect_error(with_directory(bytes, [](Json& d) { d["casters"]["shape"][0] = 2; }), "casters: its shape");
+    FoundLines wrong = ShadedScene(lit_scene(), sheet_of(R"("crease")", kLitInk)).found();
+    std::vector<ShadowCasters::Caster> casters(wrong.casters->casters().begin(), wrong.casters->casters().end());
+    casters[2].edges[1].y = 1e60;
+    wrong.casters = std::make_shared<const ShadowCasters>(casters, wrong.casters->light(), 0.0);
+    expect_error(bytes_of(wrong), "casters: row 2 is out of range");
+}
+
 /// Bytes of numbers and of the directory are changed: the file is refused, or its lines can be drawn.
 void expect_no_harm(const ShadedScene& scene, std::uint64_t trials) {
     const std::string bytes = bytes_of(scene.found());
@@ -326,6 +400,13 @@ TEST(LinesFileMutations, OfValuesOfSurfacesDoNoHarm) {
     const TemporaryFolder folder;
     const ShadedScene scene(scene_with_values(folder), sheet_of(R"("silhouette", "border", "crease")", kReads), 30, 25);
     expect_no_harm(scene, kFew ? 5000 : 40000);
+}
+
+TEST(LinesFileMutations, OfShadowsDoNoHarm) {
+    expect_no_harm(ShadedScene(lit_scene(), sheet_of(R"("silhouette", "crease", "polygon")", kLitInk), 60, 50), 2000);
+    expect_no_harm(
+        ShadedScene(lit_scene("position = [-1, 1.5, 4]"), sheet_of(R"("silhouette", "crease")", kLitInk), 60, 50),
+        1000);
 }
 
 }  // namespace
