@@ -22,7 +22,7 @@ constexpr double kWithinPx = 1.0;
 constexpr double kRoundedGapPx = 1e-5;
 /// Pieces of the same run that are no farther along it are the end itself.
 constexpr double kOwnPx = 2;
-/// Runs that are shorter are crumbs, as lie about the cusps of contours: no line goes on in them, nor ends at them.
+/// Runs that are shorter are crumbs, as lie about the cusps of contours: no line goes on in them.
 constexpr double kCrumbPx = 2;
 /// The direction of a run at a place is that between places so far before and after it.
 constexpr double kDirectionPx = 1.5;
@@ -198,7 +198,6 @@ class RunEnds {
         std::vector<Neighbour> all;
         for (std::size_t i = 0; i < runs.runs.size(); ++i) {
             const LineRun& run = runs.runs[i];
-            if (runs.length_px(run) < kCrumbPx) continue;
             for (std::size_t k = run.first; k < run.first + run.count; ++k) {
                 if (runs.pieces[k].piece.occludes) all.push_back({&runs.pieces[k].piece, i, k});
             }
