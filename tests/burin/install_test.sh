@@ -39,6 +39,8 @@ target_link_libraries(shaded PRIVATE burin::burin)' >>"$source/CMakeLists.txt"
 "$folder/cube/cube_cpp" "$folder/cpp.png"
 "$folder/cube/shaded" "$folder/shaded.png" 2>"$folder/notes"
 [ ! -s "$folder/notes" ] || fail "the line shader: $(cat "$folder/notes")"
+size() { od -An -tx1 -j16 -N8 "$1"; } # of a PNG, as its header has it
+[ "$(size "$folder/shaded.png")" = "$(size "$2/docs/pictures/shading/shaded.png")" ] || fail "the page of line shaders shows another size"
 
 # pkg-config, and a header that a strict C compiler takes.
 if command -v pkg-config >/dev/null; then

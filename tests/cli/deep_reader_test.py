@@ -273,7 +273,9 @@ def check_numbers_of_page(page):
     for name in CLASSES:
         assert f"| `{name}` | {murmur(name)} |" in text, name
     told = {}
-    exec(text.split("```python\n")[1].split("```")[0], told)
+    function = text.split("```python\n")[1].split("```")[0]
+    assert function in (page.parent / "examples/take_away.py").read_text(encoding="utf-8")
+    exec(function, told)
     for name in CLASSES + ["", "a", "ab", "abc", "größe", 'glass "blue"', "abcdefgh"]:
         assert told["number_of"](name) == murmur(name), name
 

@@ -157,6 +157,10 @@ TEST(StylePages, ScenesOfSequencesAreDrawn) {
     }
 }
 
+TEST(StylePages, ReferenceHasItsSheetInFull) {
+    EXPECT_EQ(sheets_in(page("shading/sheets.md")).count(read_file(kRoot / "docs/examples/marker.toml")), 1u);
+}
+
 TEST(StylePages, StartHasItsSceneInFull) {
     EXPECT_EQ(sheets_in(page("start.md")), std::set<std::string>{read_file(kRoot / "docs/examples/start.toml")});
 }
