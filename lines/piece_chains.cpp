@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -190,6 +191,7 @@ void PieceChains::bridge_gaps() {
         double row;
         glm::dvec2 place, way;  // into the chain
         std::uint32_t end;
+        bool is_short;  // its way is that of a crumb, and says little
     };
     std::vector<Open> open;
     links_.for_chains([&](const std::vector<std::uint32_t>& ends, bool is_closed) {
@@ -217,7 +219,8 @@ void PieceChains::bridge_gaps() {
         };
         for (const bool from_end : {false, true}) {
             const std::uint32_t end = from_end ? ends.back() ^ 1 : ends.front();
-            open.push_back({std::floor(place(end).y / kGapPx), place(end), way_in(from_end), end});
+            open.push_back(
+                {std::floor(place(end).y / kGapPx), place(end), way_in(from_end), end, length_px < kDirectionPx});
         }
     });
     const auto is_before = [](const Open& a, const Open& b) {
@@ -225,13 +228,14 @@ void PieceChains::bridge_gaps() {
     };
     std::sort(open.begin(), open.end(), is_before);
     struct Bridge {
+        bool is_short;
         double cosine, gap_px;
         std::size_t a, b;  // in `open`
     };
     std::vector<Bridge> bridges;
     for (std::size_t a = 0; a < open.size(); ++a) {
         for (const double row : {open[a].row, open[a].row + 1}) {
-            const Open first{row, {open[a].place.x - kGapPx, -1e300}, {}, 0};
+            const Open first{row, {open[a].place.x - kGapPx, -1e300}, {}, 0, false};
             for (auto near = std::lower_bound(open.begin(), open.end(), first, is_before);
                  near != open.end() && near->row == row && near->place.x <= open[a].place.x + kGapPx; ++near) {
                 const auto b = static_cast<std::size_t>(near - open.begin());
@@ -240,27 +244,31 @@ void PieceChains::bridge_gaps() {
                     piece(near->end).drawn_as != piece(open[a].end).drawn_as)
                     continue;
                 const double cosine = glm::dot(near->way, open[a].way);
-                if (cosine < kMostCosine) bridges.push_back({cosine, gap_px, a, b});
+                if (cosine < kMostCosine) bridges.push_back({near->is_short || open[a].is_short, cosine, gap_px, a, b});
             }
         }
     }
     std::sort(bridges.begin(), bridges.end(), [](const Bridge& p, const Bridge& q) {
-        return std::tie(p.cosine, p.gap_px, p.a, p.b) < std::tie(q.cosine, q.gap_px, q.a, q.b);
+        return std::tie(p.is_short, p.cosine, p.gap_px, p.a, p.b) < std::tie(q.is_short, q.cosine, q.gap_px, q.a, q.b);
     });
-    // What runs on straight comes first; then ends that meet nothing else.
-    for (const bool is_alone : {false, true}) {
-        std::vector<std::size_t> choices(open.size(), 0);
-        const auto is_open = [&](const Bridge& p) {
-            return open[p.a].end != open[p.b].end && links_.is_free(open[p.a].end) && links_.is_free(open[p.b].end);
-        };
-        for (const Bridge& p : bridges) {
-            if (!is_open(p)) continue;
-            ++choices[p.a];
-            ++choices[p.b];
-        }
-        for (const Bridge& p : bridges) {
-            const bool fits = is_alone ? choices[p.a] == 1 && choices[p.b] == 1 : p.cosine < kStraight;
-            if (fits && is_open(p)) links_.link(open[p.a].end, open[p.b].end);
+    // What runs on straight comes first, then ends that meet nothing else; and the same again with crumbs.
+    const auto first_short = std::find_if(bridges.begin(), bridges.end(), [](const Bridge& p) { return p.is_short; });
+    for (const std::span<const Bridge> some :
+         {std::span<const Bridge>(bridges.begin(), first_short), std::span<const Bridge>(bridges)}) {
+        for (const bool is_alone : {false, true}) {
+            std::vector<std::size_t> choices(open.size(), 0);
+            const auto is_open = [&](const Bridge& p) {
+                return open[p.a].end != open[p.b].end && links_.is_free(open[p.a].end) && links_.is_free(open[p.b].end);
+            };
+            for (const Bridge& p : some) {
+                if (!is_open(p)) continue;
+                ++choices[p.a];
+                ++choices[p.b];
+            }
+            for (const Bridge& p : some) {
+                const bool fits = is_alone ? choices[p.a] == 1 && choices[p.b] == 1 : p.cosine < kStraight;
+                if (fits && is_open(p)) links_.link(open[p.a].end, open[p.b].end);
+            }
         }
     }
 }
