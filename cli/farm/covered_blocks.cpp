@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/interrupt.h"
 #include "render/film.h"
 
 namespace burin {
@@ -20,6 +21,14 @@ class Blocks {
           columns_((area.width() + Film::kBlockColumns - 1) / Film::kBlockColumns),
           rows_((area.height() + Film::kBandRows - 1) / Film::kBandRows),
           has_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), false) {}
+
+    /// The number of the block that a place in pixels lies in, or kOutside.
+    std::int32_t number_of(glm::dvec2 place) const {
+        const int column = at((place.x - area_.x0) / Film::kBlockColumns, columns_), row = row_at(place.y);
+        return column < 0 || row < 0 || column >= columns_ || row >= rows_ ? kOutside : row * columns_ + column;
+    }
+    static constexpr std::int32_t kOutside = -1;
+    void put(std::int32_t number) { has_[static_cast<std::size_t>(number)] = true; }
 
     /// Corners in pixels.
     void put(const std::array<glm::dvec2, 4>& corners, std::size_t count) {
@@ -84,14 +93,18 @@ class Blocks {
 }  // namespace
 
 CoveredBlocks covered_blocks(const Frame& frame) {
+    constexpr std::size_t kTrianglesAtOnce = 1 << 16;
     Blocks blocks(frame.crop);
     const glm::dmat4 to_view = frame.camera.to_view();
     // What is nearer to the eye is left out: it would be cut off far beyond the picture's sides.
     constexpr double kNear = 0x1p-20;
+    std::vector<glm::dvec3> places;
+    std::vector<std::int32_t> numbers;  // of each place's block
     for (const SceneObject& object : frame.scene->objects) {
+        throw_if_interrupted();
         const Mesh& mesh = frame.scene->meshes[object.mesh];
         const glm::dmat4 object_to_view = to_view * object.to_world;
-        std::vector<glm::dvec3> places(mesh.positions.size());
+        places.resize(mesh.positions.size());
         double farthest = 0;
         for (std::uint32_t v = 0; v < places.size(); ++v) {
             places[v] = glm::dvec3(object_to_view * glm::dvec4(mesh.position(v), 1.0));
@@ -100,7 +113,19 @@ CoveredBlocks covered_blocks(const Frame& frame) {
         const Projection projection = frame.camera.projection(frame.width, frame.height, kNear * farthest);
         const double near_z = projection.orthographic ? std::numeric_limits<double>::infinity() : -kNear * farthest;
         if (!projection.orthographic && !(farthest > 0)) continue;
-        for (const auto& triangle : mesh.triangles) {
+        numbers.assign(places.size(), Blocks::kOutside);
+        for (std::size_t v = 0; v < places.size(); ++v) {
+            if (places[v].z <= near_z) numbers[v] = blocks.number_of(projection.to_pixel(places[v]));
+        }
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+            if (t % kTrianglesAtOnce == 0) throw_if_interrupted();
+            const auto& triangle = mesh.triangles[t];
+            const std::int32_t number = numbers[triangle[0]];
+            if (number != Blocks::kOutside && number == numbers[triangle[1]] &&
+                number == numbers[triangle[2]]) {  // mostly
+                blocks.put(number);
+                continue;
+            }
             std::array<glm::dvec2, 4> corners;
             std::size_t count = 0;
             for (std::size_t k = 0; k < 3; ++k) {

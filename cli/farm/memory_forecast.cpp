@@ -8,6 +8,7 @@ namespace {
 // Measured with models of 12 to 900,000 triangles, and pictures of 640x360 to 3840x2160.
 constexpr std::uint64_t kProgramBytes = 16'500'000;
 constexpr std::uint64_t kBytesPerTriangle = 60;
+constexpr std::uint64_t kBytesPerCopiedTriangle = 40;  // of meshes that stand in a scene more than once
 constexpr std::uint64_t kBytesPerObject = 4'000;
 constexpr std::uint64_t kBytesOfTiffModule = 115'000'000;  // and of the libraries that it brings along
 constexpr std::uint64_t kBytesPerThread = 2'500'000;
@@ -126,6 +127,8 @@ MemoryForecast forecast_memory(const PictureLoad& load) {
     forecast.blur = bytes_of_sums(load);
     if (load.cap_bytes > 0) forecast.blur = std::min(forecast.blur, load.cap_bytes / 2);
     std::uint64_t method = kBytesPerThread * static_cast<std::uint64_t>(load.threads) + kFragments.in(load);
+    if (load.placed_triangles > load.triangles)
+        method += kBytesPerCopiedTriangle * (load.placed_triangles - load.triangles);
     if (load.keeps_all_lines)
         method += kAllLines.in(load);
     else if (is_vector(load.format))

@@ -97,9 +97,13 @@ TEST(DryRun, ForecastsWhatRenderingTakes) {
     }
     folder.write("crowd.toml", crowd);
     folder.write("box.toml", "[[camera]]\neye = [3, 2, 5]\ntarget = [0, 0, 0]\n[[object]]\nshape = \"box\"\n");
+    std::string copies = "[[object]]\nshape = \"sphere\"\nsegments = 256\nrings = 128\ninstance = [\n";
+    for (int i = 0; i < 60; ++i) copies += "{ translate = [" + std::to_string(2 * i) + ", 0, 0] },\n";
+    folder.write("copies.toml", copies + "]\n");
     const std::string still_life = BURIN_SOURCE_FOLDER "/scenes/still_life.toml";
     const std::vector<std::vector<std::string>> jobs = {
         {"crowd.toml", "-o", "x.png", "-r", "320x240"},
+        {"copies.toml", "-o", "x.png", "-r", "800x600"},
         {"box.toml", "-o", "x.tif", "-r", "320x240"},
         {"box.toml", "-o", "x.exr", "--layers", "beauty,lines,crypto", "--hidden", "dashed"},
         {still_life, "-o", "x.exr", "--layers", "beauty,lines,crypto"},
