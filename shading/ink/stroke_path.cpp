@@ -106,7 +106,7 @@ void smooth_ink(StrokePath& path, double px, bool is_closed) {
             turns = std::floor((at - begin) / total);
             at -= turns * total;
         }
-        at = std::clamp(at, begin, end);
+        at = std::max(std::min(at, end), begin);  // rounding may have the end before the beginning
         const auto next =
             std::upper_bound(fine.begin(), fine.end(), at, [](double v, const PathPoint& p) { return v < p.at_px; });
         const auto i = static_cast<std::size_t>(
