@@ -161,6 +161,29 @@ class PieceCells {
     std::vector<Entry> entries_;
 };
 
+/// Lines that are long enough to be a corner.
+std::vector<Neighbour> corners_of(const LineRuns& runs) {
+    std::vector<Neighbour> all;
+    for (std::size_t i = 0; i < runs.runs.size(); ++i) {
+        const LineRun& run = runs.runs[i];
+        if (runs.length_px(run) < kCrumbPx) continue;
+        for (std::size_t k = run.first; k < run.first + run.count; ++k) all.push_back({&runs.pieces[k].piece, i, k});
+    }
+    return all;
+}
+
+/// The place of a piece that is nearest to another place.
+struct Nearest {
+    double share = 0;  // of the way along the piece
+    double distance_px = 0;
+};
+Nearest nearest(glm::dvec2 place, const LinePiece& other) {
+    const glm::dvec2 way = other.to - other.from;
+    const double square = glm::dot(way, way);
+    const double share = square > 0 ? std::clamp(glm::dot(place - other.from, way) / square, 0.0, 1.0) : 0.0;
+    return {share, glm::distance(place, other.from + way * share)};
+}
+
 /// RunEnds looks for what meets the ends of runs.
 class RunEnds {
   public:
@@ -203,17 +226,6 @@ class RunEnds {
             }
         }
         for (const LinePiece& piece : boundaries) all.push_back({&piece, kNoRun, 0});
-        return all;
-    }
-    /// Lines that are long enough to be a corner.
-    static std::vector<Neighbour> corners_of(const LineRuns& runs) {
-        std::vector<Neighbour> all;
-        for (std::size_t i = 0; i < runs.runs.size(); ++i) {
-            const LineRun& run = runs.runs[i];
-            if (runs.length_px(run) < kCrumbPx) continue;
-            for (std::size_t k = run.first; k < run.first + run.count; ++k)
-                all.push_back({&runs.pieces[k].piece, i, k});
-        }
         return all;
     }
     /// The pieces of lines that are partly seen and partly hidden, by line.
@@ -313,17 +325,6 @@ class RunEnds {
         return is_before * is_on * std::clamp((cosine - kTurnedCosine) / (kStraightCosine - kTurnedCosine), 0.0, 1.0);
     }
 
-    /// The place of a neighbour that is nearest to an end.
-    struct Nearest {
-        double share = 0;  // of the way along the piece
-        double distance_px = 0;
-    };
-    static Nearest nearest(const OpenEnd& end, const LinePiece& other) {
-        const glm::dvec2 way = other.to - other.from;
-        const double square = glm::dot(way, way);
-        const double share = square > 0 ? std::clamp(glm::dot(end.place - other.from, way) / square, 0.0, 1.0) : 0.0;
-        return {share, glm::distance(end.place, other.from + way * share)};
-    }
     double at_px(const Neighbour& neighbour, double share) const {
         if (neighbour.run == kNoRun) return 0;
         const RunPiece& piece = runs_.pieces[neighbour.index];
@@ -332,7 +333,7 @@ class RunEnds {
 
     /// Adds a joint if a boundary passes the end at its depth.
     void join(const OpenEnd& end, const Neighbour& neighbour, std::vector<Joint>& joints) const {
-        const auto [share, distance_px] = nearest(end, *neighbour.piece);
+        const auto [share, distance_px] = nearest(end.place, *neighbour.piece);
         if (neighbour.run == end.run || distance_px > kMeetsPx) return;
         if (is_in_front(neighbour, share, end)) return;
         joints.push_back({neighbour.run, neighbour.piece->line, at_px(neighbour, share)});
@@ -358,7 +359,7 @@ class RunEnds {
         // Whether hidden lines are looked for must not change visible ones.
         if (other.is_hidden() && !run.is_hidden) return;
         const RunPiece& last = piece_at(run, end.which);
-        const Nearest at = nearest(end, other);
+        const Nearest at = nearest(end.place, other);
         const double gap = std::max(0.0, at.distance_px - kMeetsPx);
         if (gap >= static_cast<double>(kFarthestGapPx)) return;
         if (own == end.run) {
@@ -439,6 +440,38 @@ void find_run_ends(LineRuns& runs, std::span<const LinePiece> boundaries, const 
             if (runs.runs[r].is_hidden || !only_hidden) ends.find_ends(r);
         }
     });
+}
+
+void leave_out_hairs(LineRuns& runs, PixelRect picture, bool only_hidden) {
+    constexpr double kLongestPx = 1.0 / 16;
+    const std::vector<Neighbour> longer = corners_of(runs);
+    const PieceCells cells(picture, longer);
+    const auto lies_on_longer = [&](glm::dvec2 place, const LinePiece& own) {
+        bool lies = false;
+        const auto reach_px = [] { return kMeetsPx; };
+        cells.for_near({0, 0, place, {}}, reach_px, reach_px, [&](std::size_t i) {
+            const LinePiece& other = *longer[i].piece;
+            lies = lies || (other.drawn_as == own.drawn_as && other.is_hidden() == own.is_hidden() &&
+                            nearest(place, other).distance_px <= kMeetsPx);
+        });
+        return lies;
+    };
+    const auto is_hair = [&](const LineRun& run) {
+        const auto pieces = runs.pieces_of(run);
+        return (run.is_hidden || !only_hidden) && runs.length_px(run) < kLongestPx &&
+               std::all_of(pieces.begin(), pieces.end(), [&](const RunPiece& p) {
+                   return lies_on_longer(p.piece.from, p.piece) && lies_on_longer(p.piece.to, p.piece);
+               });
+    };
+    LineRuns kept;
+    for (const LineRun& run : runs.runs) {
+        if (is_hair(run)) continue;
+        const auto pieces = runs.pieces_of(run);
+        kept.runs.push_back(run);
+        kept.runs.back().first = kept.pieces.size();
+        kept.pieces.insert(kept.pieces.end(), pieces.begin(), pieces.end());
+    }
+    runs = std::move(kept);
 }
 
 }  // namespace burin

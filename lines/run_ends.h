@@ -14,4 +14,9 @@ namespace burin {
 void find_run_ends(LineRuns& runs, std::span<const LinePiece> boundaries, const Projection& projection,
                    PixelRect picture, int threads, bool only_hidden = false);
 
+/// Leaves out runs shorter than 1/16 pixel that lie on longer ones of the same class, all seen or all hidden as they
+/// are: hairs, as lie where pieces of contours meet. They would be dots in the gaps of dashes, and where tapers end.
+/// `only_hidden`: visible ones stay.
+void leave_out_hairs(LineRuns& runs, PixelRect picture, bool only_hidden = false);
+
 }  // namespace burin

@@ -22,9 +22,10 @@ void find_sides_and_runs(const LineDrawing& drawing, const SurfaceSet& surfaces,
             if (!piece.is_drawn && piece.occludes) lines.boundaries.push_back(piece);
         }
     }
+    const PixelRect picture{0, 0, lines.width_px, lines.height_px};
+    if (has_any_chains) leave_out_hairs(lines.runs, picture, !needs.chains);
     if (has_any_chains && needs.ends)
-        find_run_ends(lines.runs, lines.boundaries, surfaces.projection, {0, 0, lines.width_px, lines.height_px},
-                      threads, !needs.chains);
+        find_run_ends(lines.runs, lines.boundaries, surfaces.projection, picture, threads, !needs.chains);
     lines.has_chains = needs.chains;
     lines.has_hidden_chains = has_any_chains;
     lines.has_normals = needs.normals;

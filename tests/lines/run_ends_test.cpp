@@ -99,6 +99,27 @@ TEST(RunEnds, EdgesOfACornerDoNotHideEachOther) {
     }
 }
 
+/// A hair on a longer line of its class is left out; one by itself, beside the line, or of another class is not.
+TEST(RunEnds, HairsOnLongerLinesAreLeftOut) {
+    Lines lines;
+    lines.add({100, 100}, {200, 100}, 0, false, false);
+    lines.add({150, 100.1}, {150.001, 100.1}, 0, false, false);
+    for (const glm::dvec2 place : {glm::dvec2(150, 102), glm::dvec2(20, 20)})
+        lines.add(place, place + glm::dvec2(0.001, 0), 0, false, false);
+    lines.add({150, 100}, {150.001, 100}, 0, false, false);
+    lines.runs.pieces.back().piece.drawn_as = LineClass::crease;
+    lines.add({150, 100}, {150.001, 100}, 0, false, true);
+    lines.add({150, 100}, {150.2, 100}, 0, false, false);  // no hair
+    leave_out_hairs(lines.runs, kPicture);
+    std::vector<double> begin;
+    for (const LineRun& run : lines.runs.runs) {
+        ASSERT_EQ(run.count, 1u);
+        begin.push_back(lines.runs.pieces[run.first].piece.from.y);
+    }
+    EXPECT_EQ(begin, (std::vector<double>{100, 102, 20, 100, 100, 100}));
+    EXPECT_EQ(lines.runs.pieces.size(), 6u);
+}
+
 class RandomLines : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(RandomLines, HaveTheGapsToTheNearestOthers) {
