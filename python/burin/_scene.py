@@ -17,6 +17,10 @@ from ._mesh import MeshArrays, mesh_arrays
 Vector = Union[Sequence[float], npt.NDArray[Any]]
 Progress = Callable[[float], Any]
 
+VIEW_PARAMETERS = (
+    "size camera matrix eye target up fov ortho shift pixel_aspect crop samples frame layers threads memory progress"
+).split()
+
 
 class Scene:
     """Objects, materials, cameras and settings.
@@ -259,7 +263,10 @@ class Scene:
         progress: Optional[Progress] = None,
         for_paths: bool = False,
         find_all: bool = False,
+        **unknown: Any,
     ) -> _core.Work:
+        for name in unknown:
+            raise TypeError(f"{name}: no such parameter; a view has {', '.join(VIEW_PARAMETERS)}")
         camera = _values.text("camera", camera)
         if bool(camera) + (matrix is not None) + (eye is not None) > 1:
             raise UsageError("camera, matrix and eye: give one of them")

@@ -503,3 +503,11 @@ def test_random_calls_never_crash():
             burin.draw(burin.MeshArrays(points, polygons, **given), size=(32, 24))
         except (ValueError, TypeError):
             pass
+
+
+def test_a_parameter_that_there_is_not_is_named():
+    scene = burin.Scene()
+    scene.add((POINTS, QUADS))
+    for call in (scene.render, scene.find_lines):
+        with pytest.raises(TypeError, match="^sampels: no such parameter; a view has size, camera, "):
+            call((8, 8), sampels=2)
