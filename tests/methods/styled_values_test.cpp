@@ -35,7 +35,6 @@ double width_at(const InkedLines& lines, double x) {
     }
     return width;
 }
-
 /// An edge from depth 4 to 60, about level on the screen.
 struct DeepEdge {
     static Scene scene();
