@@ -19,6 +19,9 @@ struct Found {
     std::uint64_t in(const PictureLoad& load) const { return std::min(per_triangle * load.placed_triangles, most); }
 };
 constexpr Found kFragments{200, 20'000'000}, kAllLines{200, 20'000'000}, kPathLines{100, 16'000'000};
+/// Lines of all classes have all edges that are seen or hidden, with all that sheets may ask for.
+constexpr std::uint64_t kBytesPerTriangleOfAll = 3'000;
+constexpr std::uint64_t kBytesPerSavedPixel = 24;
 /// Regions of surfaces in a vector file are made of samples.
 constexpr std::uint64_t kBytesOfRegions = 20'000'000, kBytesPerRegionPixel = 60;
 constexpr std::uint64_t kBytesPerDisplayPixel = 6;  // of a picture that is written as PNG or TIFF
@@ -123,13 +126,16 @@ MemoryForecast forecast_memory(const PictureLoad& load) {
     forecast.film = load.is_in_bands ? films * bytes_of_bands(load) + bytes_of_deep(load)
                                      : films * (bytes_of_whole(load) + bytes_of_deep(load));
     forecast.film += bytes_made(load);
+    if (load.saves_surface) forecast.film += kBytesPerSavedPixel * pixel_count(load.area);
     if (load.has_regions) forecast.film += kBytesOfRegions + kBytesPerRegionPixel * pixel_count(load.area);
     forecast.blur = bytes_of_sums(load);
     if (load.cap_bytes > 0) forecast.blur = std::min(forecast.blur, load.cap_bytes / 2);
     std::uint64_t method = kBytesPerThread * static_cast<std::uint64_t>(load.threads) + kFragments.in(load);
     if (load.placed_triangles > load.triangles)
         method += kBytesPerCopiedTriangle * (load.placed_triangles - load.triangles);
-    if (load.keeps_all_lines)
+    if (load.finds_all)
+        method += kBytesPerTriangleOfAll * load.placed_triangles;
+    else if (load.keeps_all_lines)
         method += kAllLines.in(load);
     else if (is_vector(load.format))
         method += kPathLines.in(load);

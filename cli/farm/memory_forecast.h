@@ -21,6 +21,8 @@ struct PictureLoad {
     bool is_in_bands = false;        ///< an EXR that is written while it is drawn
     bool finishes_in_bands = false;  ///< so are sub-frames
     bool keeps_all_lines = false;    ///< hidden lines, style sheets
+    bool finds_all = false;          ///< lines of all classes, to be saved
+    bool saves_surface = false;      ///< beside the lines that are saved
     bool has_regions = false;        ///< surfaces in a vector file
     OutputFormat format = OutputFormat::exr;
     int threads = 1;

@@ -58,6 +58,8 @@ PictureLoad load_of(RenderJob& job, const Arguments& a) {
         if (output.format == OutputFormat::png || output.format == OutputFormat::tiff) load.format = output.format;
     }
     load.keeps_all_lines = draws_hidden_lines(scene) || (scene.sheet && !is_vector(load.format));
+    load.finds_all = a.finds_all;
+    load.saves_surface = a.saves_surface;
     load.has_regions = is_vector(load.format) && draws_regions(scene, a);
     load.threads = resolve_thread_count(a.threads);
     load.cap_bytes = a.memory_bytes;

@@ -109,6 +109,7 @@ TEST(DryRun, ForecastsWhatRenderingTakes) {
         {still_life, "-o", "x.exr", "--layers", "beauty,lines,crypto"},
         {still_life, "--turntable", "3", "-o", "x.#.png"},
         {still_life, "--turntable", "3", "-o", "x.#.exr", "--deep", "d.#.exr"},
+        {still_life, "-o", "x.png", "--style", "technical", "--save-lines", "x.lines", "--save-surface"},
         {still_life, "--deep", "d.exr"},
         {still_life, "--deep", "d.exr", "-o", "x.png"},
         {still_life, "--deep", "d.exr", "--lens", "0.05", "--blur-samples", "2"},
