@@ -22,7 +22,8 @@ class LateFilm {
     LateFilm(const LateFilm&) = delete;
     LateFilm& operator=(const LateFilm&) = delete;
 
-    /// Takes a film; waits for one that was taken before. Where there is no memory for that, the caller keeps it.
+    /// Takes a film; waits for one that was taken before. Where the system has no more threads, wait() frees the film;
+    /// where it has no more memory, the film is freed here, or stays with the caller.
     void take(Film&& film) noexcept {
         wait();
         try {
@@ -30,7 +31,7 @@ class LateFilm {
         } catch (const std::exception&) {
         }
     }
-    /// Returns when no memory is left.
+    /// Returns when the memory of the film that was taken is given back.
     void wait() noexcept {
         if (taken_ != nullptr && taken_->process != ::getpid()) {  // a fork copies no other thread
             static_cast<void>(taken_.release());

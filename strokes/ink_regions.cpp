@@ -103,6 +103,8 @@ float InkRegions::loss(const Region& a, const Region& b) {
     return square * n * m / (n + m);
 }
 
+/// Makes one region of the two most alike until there are no more than there may be. What each pair would lose is kept,
+/// and found again only for regions that have changed.
 void InkRegions::merge_most_alike() {
     const auto find = [&](std::size_t i) {
         for (std::size_t k = 0; k < i; ++k) losses_[i * regions_.size() + k] = loss(regions_[k], regions_[i]);
