@@ -192,6 +192,8 @@ struct TileKernels {
         void (&draw_cone)(const PenCone& cone, const StrokeView& canvas);
         /// How many bits are set in 16 numbers, without those of `hidden`.
         int (&count_bits)(const std::uint32_t* rows, const std::uint32_t* hidden);
+        /// Adds the bits of 16 numbers to those of `onto`. Returns how many are new there.
+        int (&add_bits)(const std::uint32_t* rows, std::uint32_t* onto);
     };
 
     /// Finds pairs of triangles that may pass through each other.

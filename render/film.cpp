@@ -108,6 +108,14 @@ __attribute__((always_inline)) inline void blend(std::uint16_t* const (&planes)[
     for (unsigned c = 0; c < 4; ++c) *places[c] = static_cast<std::uint16_t>(halves[c]);
 }
 
+/// Of each as Film::to_half().
+HalfColor to_halves(const glm::vec4& color) {
+    const FourFloats values = {color.r, color.g, color.b, color.a};
+    const FourHalves halves = halves_from_floats(values > 65504.0f ? FourFloats{} + 65504.0f : values);
+    return {static_cast<std::uint16_t>(halves[0]), static_cast<std::uint16_t>(halves[1]),
+            static_cast<std::uint16_t>(halves[2]), static_cast<std::uint16_t>(halves[3])};
+}
+
 }  // namespace
 
 std::uint16_t Film::to_half(float value) { return half_from_float(std::min(value, 65504.0f)); }
@@ -410,14 +418,16 @@ void Film::prefetch(int x, int y) const {
     }
 }
 
-LineInk::LineInk(const LinePixel& lines) : color(lines.color) {
-    for (std::size_t c = 0; c < 4; ++c) half_color[c] = Film::to_half(color[static_cast<int>(c)]);
+LineInk::LineInk(const LinePixel& lines) : color(lines.color), half_color(to_halves(lines.color)) {
     for (std::size_t c = 0; c < kLineClassCount; ++c) coverage[c] = Film::to_half(lines.coverage[c]);
 }
 
-HiddenInk::HiddenInk(const glm::vec4& color, const glm::vec4& seen_part) : seen(seen_part) {
-    for (std::size_t c = 0; c < 4; ++c) half_color[c] = Film::to_half(color[static_cast<int>(c)]);
+LineInk::LineInk(const glm::vec4& all, LineClass its_class, float covered) : color(all), half_color(to_halves(all)) {
+    coverage[static_cast<std::size_t>(its_class)] = Film::to_half(covered);
 }
+
+HiddenInk::HiddenInk(const glm::vec4& color, const glm::vec4& seen_part)
+    : half_color(to_halves(color)), seen(seen_part) {}
 
 void Film::draw_over(int x, int y, const LineInk& lines) {
     note_drawn(x, y);

@@ -68,6 +68,8 @@ struct LinePixel {
 struct LineInk {
     LineInk() = default;
     explicit LineInk(const LinePixel& lines);
+    /// Of one class.
+    LineInk(const glm::vec4& color, LineClass its_class, float coverage);
 
     glm::vec4 color{0.0f};
     HalfColor half_color{};

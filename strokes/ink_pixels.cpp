@@ -110,19 +110,21 @@ void InkPixels::put_own_squares(const InkTile& tile, PixelRect rect) {
     });
     for (const auto [column, row] : touched_) {
         const int x = rect.x0 + column, y = rect.y0 + row;
-        if (!tile.has_records(column, row)) {
-            const InkTile::Layer* only = nullptr;
-            int found = 0;
-            for (const InkTile::Layer& layer : tile.layers()) {
-                if (!layer.canvas->is_touched(column, row)) continue;
-                ++found;
-                only = &layer;
-            }
-            if (found == 1) {  // mostly
-                put_look(*only, column, row, x, y);
-                continue;
-            }
+        const InkTile::Layer* only = nullptr;
+        int found = 0;
+        for (const InkTile::Layer& layer : tile.layers()) {
+            if (!layer.canvas->is_touched(column, row)) continue;
+            ++found;
+            only = &layer;
         }
+        const bool has_records = tile.has_records(column, row);
+        if (!has_records && found == 1) {  // mostly
+            put_look(*only, column, row, x, y);
+            continue;
+        }
+        if (const InkRecord* record = has_records && found == 0 ? tile.only_record(column, row) : nullptr;
+            record != nullptr && put_record(*record, x, y))
+            continue;
         find_spots(tile, column, row);
         if (spots_.empty()) continue;
         if (are_plain()) {
@@ -249,20 +251,21 @@ const InkRegions& InkPixels::lay(const Choose& choose) {
     return regions_;
 }
 
-/// Puts a pixel that has one visible spot, which lets a part of what is below through.
-void InkPixels::put_one(const InkSpot& spot, int x, int y) {
-    const float share = static_cast<float>(count(*spot.mask)) / kSamples;
-    const float covered = share * spot.alpha, left = 1.0f - share + share * (1.0f - spot.alpha);  // as of an InkStack
-    LineInk ink;
-    ink.color = glm::vec4(share * (spot.alpha * spot.color), 1.0f - left);
-    for (int c = 0; c < 4; ++c) ink.half_color[static_cast<std::size_t>(c)] = Film::to_half(ink.color[c]);
-    ink.coverage[static_cast<std::size_t>(spot.drawn_as)] = Film::to_half(covered);
-    film_.draw_over(x, y, ink);
+/// Puts a pixel that has one record and nothing else. False if that is not simply ink over what is there.
+bool InkPixels::put_record(const InkRecord& record, int x, int y) {
+    const InkOrder& order = plan_.orders[record.rank];
+    if (record.is_plain || record.multiplies || order.is_hidden || !set_layers_.empty()) return false;
+    // What halos have erased is not counted.
+    const int samples = plan_.most_halo_px > 0 ? count(record.mask) : record.samples;
+    const float share = static_cast<float>(samples) / kSamples,
+                alpha = std::min(record.alpha / static_cast<float>(record.samples), 1.0f);
+    const float covered = share * alpha, left = 1.0f - share + share * (1.0f - alpha);  // as of an InkStack
+    const glm::vec3 color = share * (alpha * (record.color / record.alpha));
+    film_.draw_over(x, y, LineInk(glm::vec4(color, 1.0f - left), order.drawn_as, covered));
+    return true;
 }
 
 void InkPixels::put_any(int x, int y) {
-    const InkSpot& first = spots_.front().spot;
-    if (spots_.size() == 1 && !first.is_share && !first.is_hidden && !first.multiplies) return put_one(first, x, y);
     const bool has_visible = has_any(is_visible), has_hidden = has_any(is_hidden);
     const bool multiplies = has_any([](const InkSpot& spot) { return spot.multiplies; });
     InkStack visible;

@@ -59,7 +59,7 @@ class InkPixels {
     void join_spots();
     bool are_plain() const;
     void put_plain(int x, int y);
-    void put_one(const InkSpot& spot, int x, int y);
+    bool put_record(const InkRecord& record, int x, int y);
     void put_any(int x, int y);
     template <typename Choose>
     const InkRegions& lay(const Choose& choose);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kernels/stroke_samples.h"
 #include "shading/pen.h"
 
 namespace burin {
@@ -49,6 +50,52 @@ void InkSegment::cut(glm::dvec2 place, glm::dvec2 outward) {
     }
 }
 
+PenCone InkSegment::Part::body() const {
+    PenCone longer = cone;
+    longer.body_only = true;
+    const glm::dvec2 from(cone.from[0], cone.from[1]), to(cone.to[0], cone.to[1]);
+    const double length = glm::distance(from, to);
+    if (!(length > 0)) return longer;
+    const glm::dvec2 along = (to - from) / length;
+    const double wider = (cone.radius_from - cone.radius_to) / length;  // for each pixel towards its first end
+    if (const double first = longer_px[0].value_or(0.0f); first > 0) {
+        longer.from[0] -= first * along.x;
+        longer.from[1] -= first * along.y;
+        longer.radius_from += first * wider;
+    }
+    if (const double last = longer_px[1].value_or(0.0f); last > 0) {
+        longer.to[0] += last * along.x;
+        longer.to[1] += last * along.y;
+        longer.radius_to -= last * wider;
+    }
+    return longer;
+}
+
+void InkSegment::join(Part& before, Part& after) {
+    const auto way_of = [](const PenCone& c) { return glm::dvec2(c.to[0] - c.from[0], c.to[1] - c.from[1]); };
+    const auto is_level_way = [](glm::dvec2 way) { return is_level(way.x, way.y); };
+    const glm::dvec2 way_before = way_of(before.cone), way_after = way_of(after.cone);
+    const double length_before = glm::length(way_before), length_after = glm::length(way_after);
+    if (!(std::min(length_before, length_after) > 0) || is_level_way(way_before) != is_level_way(way_after)) return;
+    const double slope_before = (before.cone.radius_from - before.cone.radius_to) / length_before,
+                 slope_after = (after.cone.radius_from - after.cone.radius_to) / length_after;
+    const double product = length_before * length_after;
+    const double sine = std::abs(way_before.x * way_after.y - way_before.y * way_after.x) / product;
+    // Between where both bodies touch the disc lies an angle of what the stroke turns, and of asin(slope_after) -
+    // asin(slope_before). This is at least as large for slopes of at most 1/2 and angles of at most 1/4.
+    const double angle = 1.02 * sine + 1.16 * std::max(slope_after - slope_before, 0.0);
+    const double radius = before.cone.radius_to;
+    // The sides of both bodies, made longer until they meet, lie outside of the disc by radius angle^2 / 8.
+    constexpr double kMostBeyondPx = 1.0 / 128, kMostAngle = 0.25, kMostSlope = 0.5;
+    if (glm::dot(way_before, way_after) <= 0 || std::max(std::abs(slope_before), std::abs(slope_after)) > kMostSlope ||
+        angle > kMostAngle || radius * angle * angle > 8 * kMostBeyondPx)
+        return;
+    constexpr double kOverlapPx = 1.0 / 32;                   // for what rounding may leave between them
+    const double longer = 0.6 * radius * angle + kOverlapPx;  // tan(angle / 2) / cos(asin(slope)) at most
+    if (longer > std::min(length_before, length_after)) return;
+    before.longer_px[1] = after.longer_px[0] = static_cast<float>(longer);
+}
+
 bool InkSegment::changes_ink(const Part& part) const {
     if (from_->opacity != to_->opacity || from_->color != to_->color) return true;
     return part.is_thin && from_->width_px != to_->width_px;
@@ -60,8 +107,9 @@ float InkSegment::share_nearest(glm::dvec2 place) const {
 
 float InkSegment::alpha_at(float share) const {
     if (from_->width_px == to_->width_px) return strength_ * glm::mix(from_->opacity, to_->opacity, share);
-    const float width = glm::mix(from_->width_px, to_->width_px, share);
-    return glm::mix(from_->opacity, to_->opacity, share) * std::min(width / finest_px_, 1.0f);
+    const float opacity = glm::mix(from_->opacity, to_->opacity, share);
+    if (std::min(from_->width_px, to_->width_px) >= finest_px_) return opacity;
+    return opacity * std::min(glm::mix(from_->width_px, to_->width_px, share) / finest_px_, 1.0f);
 }
 
 }  // namespace burin

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 
 #include "kernels/tile_kernels.h"
@@ -16,7 +17,16 @@ class InkSegment {
     struct Part {
         PenCone cone;
         bool is_thin = false;  ///< drawn wider than it is
+        /// Of its first and last end: how much longer its body is drawn to meet that of the next part of the stroke.
+        /// Nothing where only a disc fills what is between them.
+        std::array<std::optional<float>, 2> longer_px;
+        bool needs_disc() const { return !longer_px[0] || !longer_px[1]; }
+        /// Its body, made longer.
+        PenCone body() const;
     };
+    /// Where a stroke goes on from one part to another one: lets their bodies meet, if the stroke turns so little there
+    /// and its width changes so evenly that no disc is needed.
+    static void join(Part& before, Part& after);
 
     InkSegment(const InkPoint& from, const InkPoint& to, StrokeSide side);
 
@@ -25,6 +35,7 @@ class InkSegment {
 
     /// One cone, or two where the stroke becomes thin on the way. None where there is no ink.
     std::span<const Part> parts() const { return {parts_.data(), part_count_}; }
+    std::span<Part> parts() { return {parts_.data(), part_count_}; }
     /// Cuts off what lies beyond the end of the stroke at `place`, along its direction there.
     void cut(glm::dvec2 place, glm::dvec2 outward);
     double radius_px() const { return radius_px_; }

@@ -24,13 +24,6 @@ bool is_before(const InkedLines& lines, const InkStroke& a, const InkStroke& b) 
                                         [&](const InkPoint& p, const InkPoint& q) { return key(p) < key(q); });
 }
 
-/// Whether the last disc of one cone is the first one of the next, sample by sample.
-bool ends_where_begins(const PenCone& a, const PenCone& b) {
-    const auto is_level_cone = [](const PenCone& c) { return is_level(c.to[0] - c.from[0], c.to[1] - c.from[1]); };
-    return a.to[0] == b.from[0] && a.to[1] == b.from[1] && a.radius_to == b.radius_from && a.cut_count == 0 &&
-           b.cut_count == 0 && is_level_cone(a) == is_level_cone(b);
-}
-
 }  // namespace
 
 StrokeSide drawn_side(const InkStroke& stroke) {
@@ -38,12 +31,7 @@ StrokeSide drawn_side(const InkStroke& stroke) {
 }
 
 InkTile::InkTile(const Frame& frame, const InkedLines& lines, const InkPlan& plan, const TileKernels& kernels)
-    : lines_(lines),
-      plan_(plan),
-      projection_(frame.surfaces.projection),
-      kernels_(kernels),
-      piece_(kernels),
-      clipper_(kernels) {}
+    : lines_(lines), plan_(plan), projection_(frame.surfaces.projection), kernels_(kernels), clipper_(kernels) {}
 
 InkSegment InkTile::segment_of(const InkSegmentRef& ref) const {
     InkSegment segment(lines_.points[ref.point], lines_.points[ref.point + 1], drawn_side(lines_.strokes[ref.stroke]));
@@ -167,7 +155,7 @@ void InkTile::draw_layer(std::span<const InkSegmentRef> segments) {
                         static_cast<double>(plan_.pen_radius_px[ref.stroke]));
             continue;
         }
-        const Placed placed{ref, segment_of(ref)};
+        const Placed placed(*this, ref);
         const bool is_cut = may_be_cut && is_clipped(placed);
         for (const InkSegment::Part& part : placed.segment.parts()) {
             if (is_cut) {
@@ -192,123 +180,6 @@ void InkTile::tell_owner(const InkSegmentRef& ref) {
         owners_->add(part.cone, segment.from().nearness, segment.to().nearness, line);
 }
 
-void InkTile::draw_chain(std::span<const InkSegmentRef> segments) {
-    throw_if_interrupted();
-    placed_.clear();
-    std::array<bool, 2> has_parts{}, has_changes{};  // that are not thin, and that are
-    for (const InkSegmentRef& ref : segments) {
-        const Placed& placed = placed_.emplace_back(Placed{ref, segment_of(ref)});
-        for (const InkSegment::Part& part : placed.segment.parts()) {
-            const std::size_t k = part.is_thin ? 1 : 0;
-            has_parts[k] = true;
-            has_changes[k] = has_changes[k] || has_body_first(placed, part);
-        }
-    }
-    chain_begin_ = records_.size();
-    // Bodies come before discs, so that ink changes evenly along the stroke and not in steps as wide as the pen; what
-    // is thin comes last: its ink is light, and would keep darker ink of the same chain away.
-    for (const bool is_thin : {false, true}) {
-        const std::size_t k = is_thin ? 1 : 0;
-        if (!has_parts[k]) continue;
-        cut_masks_.clear();
-        cut_ends_.clear();
-        if (has_changes[k]) draw_parts(is_thin, true);
-        draw_parts(is_thin, false);
-    }
-    for (std::size_t i = chain_begin_; i < records_.size(); ++i) record_at_[records_[i].pixel] = 0;
-    const auto own = records_.begin() + static_cast<std::ptrdiff_t>(chain_begin_);
-    records_.erase(std::remove_if(own, records_.end(), [](const InkRecord& r) { return !(r.alpha > 0); }),
-                   records_.end());
-}
-
-/// Whether it matters which of a part and its neighbours the samples of a pixel come from: for its ink, or for the
-/// depth that halos of others ask for.
-bool InkTile::has_body_first(const Placed& placed, const InkSegment::Part& part) const {
-    return placed.segment.changes_ink(part) ||
-           (plan_.most_halo_px > 0 && !has_one_ink(placed.segment.from(), placed.segment.to()));
-}
-
-void InkTile::draw_parts(bool is_thin, bool body_only) {
-    const auto use_cut = [&](const Placed& placed, const InkSegment::Part& part, const auto& use) {
-        piece_.reset(rect_.x0, rect_.y0, rect_.width(), rect_.height());
-        draw_clipped(placed, part.cone, piece_);
-        piece_.for_touched([&](int column, int row) { use(column, row, piece_.at(column, row)); });
-    };
-    std::size_t next_part = 0;
-    const PenCone* before = nullptr;  // what is drawn whole, with both discs
-    for (const Placed& placed : placed_) {
-        throw_if_interrupted();
-        const bool is_cut = is_clipped(placed);
-        if (is_cut) before = nullptr;
-        for (const InkSegment::Part& part : placed.segment.parts()) {
-            if (part.is_thin != is_thin) continue;
-            const bool changes = has_body_first(placed, part);
-            if (body_only && !changes) continue;
-            PenCone cone = part.cone;
-            cone.body_only = body_only;
-            if (!is_cut) {
-                const auto use = [&](int column, int row, const StrokeMask& mask) { take(placed, column, row, mask); };
-                if (body_only || !changes) {
-                    one_.draw(kernels_, cone, rect_, use);
-                } else {  // its body is there already
-                    const bool has_first = before == nullptr || !ends_where_begins(*before, part.cone);
-                    one_.draw_ends(kernels_, cone, has_first, rect_, use);
-                }
-                before = body_only ? nullptr : &part.cone;
-            } else if (body_only) {
-                use_cut(placed, part, [&](int column, int row, const StrokeMask& mask) {
-                    cut_masks_.push_back({column, row, mask});
-                });
-                cut_ends_.push_back(cut_masks_.size());
-                one_.draw(kernels_, cone, rect_, [&](int column, int row, StrokeMask mask) {
-                    const StrokeMask& left = piece_.at(column, row);
-                    for (std::size_t r = 0; r < mask.rows.size(); ++r) mask.rows[r] &= left.rows[r];
-                    take(placed, column, row, mask);
-                });
-            } else if (!changes) {
-                use_cut(placed, part,
-                        [&](int column, int row, const StrokeMask& mask) { take(placed, column, row, mask); });
-            } else {  // as when its body was drawn
-                for (std::size_t i = next_part == 0 ? 0 : cut_ends_[next_part - 1]; i < cut_ends_[next_part]; ++i)
-                    take(placed, cut_masks_[i].column, cut_masks_[i].row, cut_masks_[i].mask);
-                ++next_part;
-            }
-        }
-    }
-}
-
-void InkTile::take(const Placed& placed, int column, int row, const StrokeMask& mask) {
-    const std::size_t pixel = index(column, row);
-    if (record_at_[pixel] == 0) {
-        InkRecord& record = records_.emplace_back();
-        const InkStroke& stroke = lines_.strokes[placed.ref.stroke];
-        record.pixel = static_cast<std::uint32_t>(pixel);
-        record.stroke = placed.ref.stroke;
-        record.rank = placed.ref.rank;
-        record.chain = stroke.chain;
-        record.multiplies = stroke.blend == InkBlend::multiply;
-        record_at_[pixel] = static_cast<std::uint32_t>(records_.size());
-        touched_[pixel] = 1;
-    }
-    InkRecord& record = records_[record_at_[pixel] - 1];
-    if (record.samples == InkRegions::kSamples) return;
-    std::uint32_t any = 0;
-    for (std::size_t r = 0; r < mask.rows.size(); ++r) any |= mask.rows[r] & ~record.mask.rows[r];
-    if (any == 0) return;  // mostly, where bodies are drawn already
-    const int samples = kernels_.stroke.count_bits(mask.rows.data(), record.mask.rows.data());
-    for (std::size_t r = 0; r < mask.rows.size(); ++r) record.mask.rows[r] |= mask.rows[r];
-    const float share = placed.segment.share_nearest({rect_.x0 + column + 0.5, rect_.y0 + row + 0.5});
-    const auto count = static_cast<float>(samples);
-    const float ink = count * placed.segment.alpha_at(share);
-    const InkPlan::Look& look = plan_.looks[placed.ref.stroke];
-    record.is_plain = record.is_plain && look.is_plain && look == plan_.looks[record.stroke];
-    record.samples += samples;
-    record.alpha += ink;
-    record.nearness += count * placed.segment.nearness_at(share);
-    record.width += count * glm::mix(placed.segment.from().width_px, placed.segment.to().width_px, share);
-    record.color += ink * placed.segment.color_at(share);
-}
-
 void InkTile::sort_records() {
     first_sorted_.assign(touched_.size() + 1, 0);
     for (const InkRecord& r : records_) ++first_sorted_[r.pixel + 1];
@@ -328,7 +199,7 @@ bool InkTile::may_be_clipped(const InkSegmentRef& ref) const {
 }
 
 /// Whether any boundary is near enough to cut a part of it.
-bool InkTile::is_clipped(const Placed& placed) const {
+bool InkTile::is_clipped(const Placed& placed) {
     return may_be_clipped(placed.ref) && clipper_.may_cut(clip_piece(placed), placed.segment.radius_px(),
                                                           drawn_side(lines_.strokes[placed.ref.stroke]));
 }
@@ -345,15 +216,24 @@ ClipPiece InkTile::clip_piece(const Placed& placed) const {
 }
 
 void InkTile::draw_clipped(const Placed& placed, const PenCone& cone, StrokeCanvas& onto) {
-    const InkPoint& from = placed.segment.from();
     const ClipPiece piece = clip_piece(placed);
-    const StrokeSide side = drawn_side(lines_.strokes[placed.ref.stroke]);
-    const ClipPiece* own = &piece;
-    if (side != StrokeSide::both && from.boundary != InkPoint::kNoBoundary) {  // which does not cut itself
-        const auto at = std::lower_bound(boundary_numbers_.begin(), boundary_numbers_.end(), from.boundary);
-        if (at != boundary_numbers_.end() && *at == from.boundary) own = &boundaries_[at - boundary_numbers_.begin()];
-    }
-    clipper_.draw(*own, cone, side, onto);
+    clipper_.draw(own_boundary(placed, piece), cone, drawn_side(lines_.strokes[placed.ref.stroke]), onto);
+}
+
+/// draw_clipped(), but lists what is left.
+void InkTile::list_clipped(const Placed& placed, const PenCone& cone, std::vector<StrokeClipper::CutPixel>& pixels) {
+    const ClipPiece piece = clip_piece(placed);
+    clipper_.list(own_boundary(placed, piece), cone, drawn_side(lines_.strokes[placed.ref.stroke]), pixels);
+}
+
+/// The boundary along which a stroke on one side is drawn, which does not cut it; otherwise `piece`.
+const ClipPiece& InkTile::own_boundary(const Placed& placed, const ClipPiece& piece) const {
+    const std::uint32_t own = placed.segment.from().boundary;
+    if (drawn_side(lines_.strokes[placed.ref.stroke]) == StrokeSide::both || own == InkPoint::kNoBoundary) return piece;
+    const auto at = std::lower_bound(boundary_numbers_.begin(), boundary_numbers_.end(), own);
+    return at != boundary_numbers_.end() && *at == own
+               ? boundaries_[static_cast<std::size_t>(at - boundary_numbers_.begin())]
+               : piece;
 }
 
 /// In pixels' widths: a difference of 1 is a pixel's width at that distance.

@@ -56,6 +56,13 @@ struct InkSegmentRef {
 
 /// The samples of one pixel that a chain has, and the sum of their ink.
 struct InkRecord {
+    InkRecord(std::uint32_t pixel_number, std::uint32_t first_stroke, std::uint32_t its_rank, const InkStroke& look)
+        : pixel(pixel_number),
+          stroke(first_stroke),
+          rank(its_rank),
+          chain(look.chain),
+          multiplies(look.blend == InkBlend::multiply) {}
+
     std::uint32_t pixel = 0;
     std::uint32_t stroke = 0;  ///< the first one of its chain here
     std::uint32_t rank = 0;
@@ -83,10 +90,10 @@ class PieceMasks {
         draw_in(kernels, cone, box, [&](int x, int y, const StrokeMask& mask) { use(x - rect.x0, y - rect.y0, mask); });
     }
 
-    /// draw(), but only the pixels near its ends, in others it is nothing but its body; without its first end, if
-    /// the disc there is drawn already.
+    /// draw(), but only the pixels near the ends that are asked for: elsewhere it is nothing but its body.
     template <typename Use>
-    void draw_ends(const TileKernels& kernels, const PenCone& cone, bool has_first, PixelRect rect, const Use& use) {
+    void draw_ends(const TileKernels& kernels, const PenCone& cone, bool has_first, bool has_last, PixelRect rect,
+                   const Use& use) {
         const EndsOfCone ends(cone);
         const auto draw_near = [&](PixelRect box) {
             draw_in(kernels, cone, box, [&](int x, int y, const StrokeMask& mask) {
@@ -95,7 +102,9 @@ class PieceMasks {
         };
         const PixelRect first = ends.box(cone.from, cone.radius_from, rect),
                         last = ends.box(cone.to, cone.radius_to, rect);
+        if (!has_first && !has_last) return;
         if (!has_first) return draw_near(last);
+        if (!has_last) return draw_near(first);
         const bool are_apart = first.x1 <= last.x0 || last.x1 <= first.x0 || first.y1 <= last.y0 || last.y1 <= first.y0;
         if (are_apart) {
             draw_near(first);
@@ -137,12 +146,15 @@ class PieceMasks {
     static constexpr double kMarginPx = 1.0 / 8;  // for shifted samples, and rounding
 
     static PixelRect box_around(glm::dvec2 low, glm::dvec2 high, double reach, PixelRect rect) {
-        const auto within = [](double v, int least, int most) {
-            return static_cast<int>(std::clamp(v, static_cast<double>(least), static_cast<double>(most)));
+        // Whole numbers without calls: what is cut to the rectangle and counted from its corner is not negative.
+        const auto down = [](double v, int from, int to) {
+            return from + static_cast<int>(std::clamp(v - from, 0.0, static_cast<double>(to - from)));
         };
-        return {
-            within(std::floor(low.x - reach), rect.x0, rect.x1), within(std::floor(low.y - reach), rect.y0, rect.y1),
-            within(std::ceil(high.x + reach), rect.x0, rect.x1), within(std::ceil(high.y + reach), rect.y0, rect.y1)};
+        const auto up = [](double v, int from, int to) {
+            return to - static_cast<int>(std::clamp(to - v, 0.0, static_cast<double>(to - from)));
+        };
+        return {down(low.x - reach, rect.x0, rect.x1), down(low.y - reach, rect.y0, rect.y1),
+                up(high.x + reach, rect.x0, rect.x1), up(high.y + reach, rect.y0, rect.y1)};
     }
 
     /// Calls use(x, y, mask) for the pixels of a box that it touches.
@@ -215,18 +227,20 @@ class InkTile {
             }
         }
     }
+    /// The record of a pixel that has one and no more.
+    const InkRecord* only_record(int column, int row) const {
+        const std::uint32_t* first = &first_sorted_[index(column, row)];
+        return first[1] - first[0] == 1 ? &records_[sorted_[*first]] : nullptr;
+    }
     bool has_records(int column, int row) const { return touched_[index(column, row)] != 0; }
 
   private:
     /// A segment of this tile, made ready.
     struct Placed {
+        Placed(const InkTile& tile, const InkSegmentRef& of) : ref(of), segment(tile.segment_of(of)) {}
         InkSegmentRef ref;
         InkSegment segment;
-    };
-    /// What boundaries leave of a part of a segment in one pixel.
-    struct CutMask {
-        int column, row;
-        StrokeMask mask;
+        bool is_cut = false;  ///< some boundary may cut it
     };
     /// A record of which samples are left for halos to erase, and how near they are.
     struct Behind {
@@ -241,11 +255,15 @@ class InkTile {
     void tell_owner(const InkSegmentRef& ref);
     void draw_chain(std::span<const InkSegmentRef> segments);
     bool has_body_first(const Placed& placed, const InkSegment::Part& part) const;
+    void join_parts();
     void draw_parts(bool is_thin, bool body_only);
+    void draw_cut(const Placed& placed, const InkSegment::Part& part, bool body_only, std::size_t& next_cut);
     bool may_be_clipped(const InkSegmentRef& ref) const;
-    bool is_clipped(const Placed& placed) const;
+    bool is_clipped(const Placed& placed);
     ClipPiece clip_piece(const Placed& placed) const;
+    const ClipPiece& own_boundary(const Placed& placed, const ClipPiece& piece) const;
     void draw_clipped(const Placed& placed, const PenCone& cone, StrokeCanvas& onto);
+    void list_clipped(const Placed& placed, const PenCone& cone, std::vector<StrokeClipper::CutPixel>& pixels);
     void take(const Placed& placed, int column, int row, const StrokeMask& mask);
     void sort_records();
     void erase_behind_halos();
@@ -265,8 +283,9 @@ class InkTile {
     std::vector<InkSegmentRef> segments_;  // by rank
     std::vector<std::uint64_t> keys_;
     std::vector<Placed> placed_;
-    std::vector<CutMask> cut_masks_;     // of the parts of a chain whose bodies are drawn, part by part
-    std::vector<std::size_t> cut_ends_;  // of each part's masks
+    std::vector<StrokeClipper::CutPixel> cut_pixels_;  // of a chain's parts with discs, part by part
+    std::vector<std::size_t> cut_ends_;                // of each part's
+    std::vector<StrokeClipper::CutPixel> cut_once_;
 
     std::vector<InkRecord> records_;
     std::vector<std::uint32_t> record_at_;  // of the chain that is drawn, by pixel: number + 1
@@ -279,7 +298,6 @@ class InkTile {
     std::vector<std::uint32_t> behind_end_;  // of each pixel's
 
     PieceMasks one_;
-    StrokeCanvas piece_;  // of one piece that is cut
     StrokeClipper clipper_;
     std::vector<ClipPiece> boundaries_;
     std::vector<std::uint32_t> boundary_numbers_;

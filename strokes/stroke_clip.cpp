@@ -239,14 +239,15 @@ bool StrokeClipper::cut_to(const StrokeCanvas::Box& box) {
     return first_row_ < end_row_ && first_column_ < end_column_;
 }
 
-StrokeCanvas::Box StrokeClipper::pixels_to_add(const StrokeCanvas& onto, bool knows_behind) const {
+StrokeCanvas::Box StrokeClipper::pixels_to_add(const StrokeCanvas* onto, bool knows_behind) const {
+    static constexpr StrokeMask kNothing{};
     const StrokeCanvas::Box box = pixels();
     StrokeCanvas::Box found{box.x1, box.y1, box.x0, box.y0};
     for (int y = box.y0; y < box.y1; ++y) {
         for (int x = box.x0; x < box.x1; ++x) {
             const bool is_known = y < found.y1 && x >= found.x0 && x < found.x1;  // to change nothing
             if (is_known || !canvas_.is_touched(x, y)) continue;
-            const StrokeMask &own = canvas_.at(x, y), &other = onto.at(x, y);
+            const StrokeMask &own = canvas_.at(x, y), &other = onto == nullptr ? kNothing : onto->at(x, y);
             const auto& behind = behind_[static_cast<std::size_t>(y * width_ + x)];
             std::uint32_t any = 0;
             for (std::size_t r = 0; r < own.rows.size(); ++r)
@@ -287,14 +288,17 @@ StrokeClipper::Reach::Reach(const ClipPiece& piece, double radius_px, StrokeSide
       has_side(side != StrokeSide::both),
       is_cut_by_all(piece.is_cut_by_all) {}
 
-bool StrokeClipper::may_cut(const ClipPiece& piece, double radius_px, StrokeSide side) const {
+bool StrokeClipper::may_cut(const ClipPiece& piece, double radius_px, StrokeSide side) {
     if (side != StrokeSide::both) return true;
     const Reach reach(piece, radius_px, side);
-    const BoundaryCells::Box middle = cells_.cells_of({piece.from, piece.to});
+    const Frame frame(piece);
     bool may = false;
-    for (int ring = 0; !may && !cells_.is_beyond(middle, ring) && BoundaryCells::distance_px(ring - 1) <= radius_px;
-         ++ring)
-        cells_.for_ring(middle, ring, [&](std::uint32_t i) { may = may || reach.has(extents_[i]); });
+    cells_.for_ring(cells_.cells_of({reach.low, reach.high}), 0, [&](std::uint32_t i) {
+        if (may || !reach.has(extents_[i])) return;
+        shadows_.clear();
+        add_shadows(*boundaries_[i], piece, frame, radius_px, side);
+        may = std::any_of(shadows_.begin(), shadows_.end(), [](const Shadow& s) { return s.enters; });
+    });
     return may;
 }
 
@@ -333,7 +337,7 @@ void StrokeClipper::find_shadows(int ring, const ClipPiece& piece, const Frame& 
 /// Passes the boundaries on the ways from a piece, the nearest ones first, until nothing of the stroke is left: then it
 /// is false.
 bool StrokeClipper::pass_boundaries(const ClipPiece& piece, const Frame& frame, double radius_px, StrokeSide side,
-                                    const StrokeCanvas& onto) {
+                                    const StrokeCanvas* onto) {
     // Beyond its own surface a stroke on the inside is cut off for good, mostly by the first boundaries.
     constexpr std::size_t kLookEvery = 6;
     const bool is_inside = side == StrokeSide::inside;
@@ -370,9 +374,42 @@ void StrokeClipper::draw(const ClipPiece& piece, const PenCone& cone, StrokeSide
               [&](StrokeCanvas& canvas) { canvas.draw(cone); });
 }
 
+void StrokeClipper::list(const ClipPiece& piece, const PenCone& cone, StrokeSide side, std::vector<CutPixel>& pixels) {
+    const auto draw_pen = [&](StrokeCanvas& canvas) { canvas.draw(cone); };
+    const auto add = [&](int column, int row, const StrokeMask& mask) { pixels.push_back({column, row, mask}); };
+    switch (cut(piece, std::max(cone.radius_from, cone.radius_to), side, nullptr, draw_pen)) {
+        case Cut::nothing_is_left:
+            return;
+        case Cut::is_whole:
+            canvas_.reset(x0_, y0_, width_, height_);
+            draw_pen(canvas_);
+            canvas_.for_touched([&](int column, int row) { add(column, row, canvas_.at(column, row)); });
+            return;
+        case Cut::is_cut:
+            for_left(add);
+            return;
+    }
+}
+
 template <typename DrawPen>
 void StrokeClipper::draw_with(const ClipPiece& piece, double radius_px, StrokeSide side, StrokeCanvas& onto,
                               const DrawPen& draw_pen) {
+    switch (cut(piece, radius_px, side, &onto, draw_pen)) {
+        case Cut::nothing_is_left:
+            return;
+        case Cut::is_whole:
+            draw_pen(onto);
+            return;
+        case Cut::is_cut:
+            for_left([&](int column, int row, const StrokeMask& mask) { onto.add(column, row, mask); });
+            return;
+    }
+}
+
+/// Finds what is left of a stroke, where there is nothing yet of `onto`, if that is given: see for_left().
+template <typename DrawPen>
+StrokeClipper::Cut StrokeClipper::cut(const ClipPiece& piece, double radius_px, StrokeSide side, StrokeCanvas* onto,
+                                      const DrawPen& draw_pen) {
     if (!piece.occludes) side = StrokeSide::both;  // it has no front
     const auto to_samples = [](double px, int per_px, int size_px) {
         return std::clamp(px * per_px, 0.0, static_cast<double>(size_px) * per_px);
@@ -384,9 +421,9 @@ void StrokeClipper::draw_with(const ClipPiece& piece, double radius_px, StrokeSi
     end_row_ = static_cast<int>(std::ceil(to_samples(high.y, StrokeMask::kRows, height_)));
     first_column_ = static_cast<int>(std::floor(to_samples(low.x, StrokeMask::kColumns, width_)));
     end_column_ = static_cast<int>(std::ceil(to_samples(high.x, StrokeMask::kColumns, width_)));
-    if (first_row_ >= end_row_ || first_column_ >= end_column_ || !cut_to(onto.open_part(pixels()))) return;
-
-    if (side != StrokeSide::both && glm::distance(piece.from, piece.to) < kShortestPx) return;
+    if (first_row_ >= end_row_ || first_column_ >= end_column_) return Cut::nothing_is_left;
+    if (onto != nullptr && !cut_to(onto->open_part(pixels()))) return Cut::nothing_is_left;
+    if (side != StrokeSide::both && glm::distance(piece.from, piece.to) < kShortestPx) return Cut::nothing_is_left;
     const Frame frame(piece);
     shadows_.clear();
     ++stroke_count_;
@@ -394,14 +431,11 @@ void StrokeClipper::draw_with(const ClipPiece& piece, double radius_px, StrokeSi
         find_shadows(0, piece, frame, radius_px, side);
         // Before a surface is entered there is none to come out of.
         const bool enters = std::any_of(shadows_.begin(), shadows_.end(), [](const Shadow& s) { return s.enters; });
-        if (!enters && side == StrokeSide::both) {
-            draw_pen(onto);
-            return;
-        }
+        if (!enters && side == StrokeSide::both) return Cut::is_whole;
     }
     canvas_.reset(x0_, y0_, width_, height_);
     draw_pen(canvas_);
-    if (!cut_to(pixels_to_add(onto, false))) return;
+    if (!cut_to(pixels_to_add(onto, false))) return Cut::nothing_is_left;
     // All that cuts a stroke is sampled as it is itself: what else lies around it depends on the crop.
     in_sets_ = is_level(piece.to.x - piece.from.x, piece.to.y - piece.from.y);
     const StrokeCanvas::Box box = pixels();
@@ -414,10 +448,14 @@ void StrokeClipper::draw_with(const ClipPiece& piece, double radius_px, StrokeSi
         for_spans(std::span(&other, 1), [&](int pixel, std::size_t row, std::uint32_t bits) {
             behind_[static_cast<std::size_t>(pixel)][row].off |= bits;
         });
-        if (!cut_to(pixels_to_add(onto, true))) return;
+        if (!cut_to(pixels_to_add(onto, true))) return Cut::nothing_is_left;
     }
-    if (!pass_boundaries(piece, frame, radius_px, side, onto)) return;
+    return pass_boundaries(piece, frame, radius_px, side, onto) ? Cut::is_cut : Cut::nothing_is_left;
+}
 
+/// Calls use(column, row, mask) for what cut() has left.
+template <typename Use>
+void StrokeClipper::for_left(const Use& use) const {
     const StrokeCanvas::Box left = pixels();
     for (int y = left.y0; y < left.y1; ++y) {
         for (int x = left.x0; x < left.x1; ++x) {
@@ -426,7 +464,7 @@ void StrokeClipper::draw_with(const ClipPiece& piece, double radius_px, StrokeSi
             const auto& behind = behind_[static_cast<std::size_t>(y * width_ + x)];
             std::uint32_t any = 0;
             for (std::size_t r = 0; r < mask.rows.size(); ++r) any |= mask.rows[r] &= ~(behind[r].one | behind[r].off);
-            if (any != 0) onto.add(x, y, mask);
+            if (any != 0) use(x, y, mask);
         }
     }
 }

@@ -44,7 +44,7 @@ class StrokeClipper {
     void set_boundaries(std::span<const ClipPiece* const> boundaries);
 
     /// Whether any boundary may cut the stroke along `piece`: draw() draws it whole if none may.
-    bool may_cut(const ClipPiece& piece, double radius_px, StrokeSide side) const;
+    bool may_cut(const ClipPiece& piece, double radius_px, StrokeSide side);
 
     /// Adds the stroke along `piece` to a canvas of the same rectangle. Boundaries that are farther away than
     /// the radius, or `piece` itself, change nothing.
@@ -52,6 +52,14 @@ class StrokeClipper {
 
     /// The same for a pen whose radius changes along `piece`, or along a part of it.
     void draw(const ClipPiece& piece, const PenCone& cone, StrokeSide side, StrokeCanvas& onto);
+
+    /// What is left of a stroke in one pixel, counted from the rectangle's first.
+    struct CutPixel {
+        int column, row;
+        StrokeMask mask;
+    };
+    /// The same, but lists what is left, row by row.
+    void list(const ClipPiece& piece, const PenCone& cone, StrokeSide side, std::vector<CutPixel>& pixels);
 
     /// How many times a boundary was compared with a stroke.
     std::uint64_t comparison_count() const { return comparison_count_; }
@@ -98,6 +106,12 @@ class StrokeClipper {
     class Frame;
 
     static Extent extent_of(const ClipPiece& boundary);
+    /// What cut() has found.
+    enum class Cut { nothing_is_left, is_whole, is_cut };
+    template <typename DrawPen>
+    Cut cut(const ClipPiece& piece, double radius_px, StrokeSide side, StrokeCanvas* onto, const DrawPen& draw_pen);
+    template <typename Use>
+    void for_left(const Use& use) const;
     template <typename DrawPen>
     void draw_with(const ClipPiece& piece, double radius_px, StrokeSide side, StrokeCanvas& onto,
                    const DrawPen& draw_pen);
@@ -113,11 +127,11 @@ class StrokeClipper {
     /// Cuts the stroke's rows and columns to a box of pixels. False if nothing is left.
     bool cut_to(const StrokeCanvas::Box& box);
     /// The smallest box of pixels in which the stroke has anything to add that is not cut off for good.
-    StrokeCanvas::Box pixels_to_add(const StrokeCanvas& onto, bool knows_behind) const;
+    StrokeCanvas::Box pixels_to_add(const StrokeCanvas* onto, bool knows_behind) const;
     bool is_between(const ClipPiece& boundary, const Frame& frame) const;
     void find_shadows(int ring, const ClipPiece& piece, const Frame& frame, double radius_px, StrokeSide side);
     bool pass_boundaries(const ClipPiece& piece, const Frame& frame, double radius_px, StrokeSide side,
-                         const StrokeCanvas& onto);
+                         const StrokeCanvas* onto);
 
     StrokeCanvas canvas_;
     int x0_ = 0, y0_ = 0, width_ = 0, height_ = 0;

@@ -415,7 +415,14 @@ TEST(TileKernels, AllInstructionSetsGiveTheSameBits) {
         hidden[i] = random.bits();
         expected += std::popcount(rows[i] & ~hidden[i]);
     }
-    for (const TileKernels* set : kernels) EXPECT_EQ(set->stroke.count_bits(rows, hidden), expected);
+    for (const TileKernels* set : kernels) {
+        EXPECT_EQ(set->stroke.count_bits(rows, hidden), expected);
+        std::uint32_t onto[16];
+        std::copy_n(hidden, 16, onto);
+        EXPECT_EQ(set->stroke.add_bits(rows, onto), expected);
+        for (std::size_t i = 0; i < 16; ++i) EXPECT_EQ(onto[i], rows[i] | hidden[i]);
+        EXPECT_EQ(set->stroke.add_bits(rows, onto), 0);
+    }
 }
 
 TEST(TileKernels, FindPairsOfSurfacesThatAreNotPlainOrNotLevel) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "tests/support/random.h"
@@ -117,6 +118,59 @@ TEST(StrokeClipper, ManyStrokesAreTheUnionOfEach) {
         }
     }
     EXPECT_GT(full, 10000);
+}
+
+/// A pen that becomes narrower along a piece.
+PenCone cone_along(const ClipPiece& piece, double radius_px, bool body_only) {
+    PenCone cone{{piece.from.x, piece.from.y}, {piece.to.x, piece.to.y}, radius_px, 0.8 * radius_px};
+    cone.body_only = body_only;
+    return cone;
+}
+
+TEST(StrokeClipper, ListsWhatItDraws) {
+    int listed = 0, whole = 0, cut = 0;
+    for (std::uint64_t trial = 0; trial < 300; ++trial) {
+        Random random(trial);
+        const std::vector<ClipPiece> pieces = random_pieces(random);
+        const std::vector<const ClipPiece*> boundaries = boundaries_of(pieces);
+        const double radius_px = std::pow(2.0, random.real(-2, 4));
+        const StrokeSide side = random_side(random);
+        StrokeClipper clipper;
+        clipper.reset(0, 0, kSize, kSize);
+        clipper.set_boundaries(boundaries);
+        std::vector<StrokeClipper::CutPixel> pixels;
+        for (const ClipPiece& p : pieces) {
+            const PenCone cone = cone_along(p, radius_px, random.integer(0, 1) == 0);
+            StrokeCanvas drawn, from_list, pen;
+            for (StrokeCanvas* c : {&drawn, &from_list, &pen}) c->reset(0, 0, kSize, kSize);
+            clipper.draw(p, cone, side, drawn);
+            pixels.clear();
+            clipper.list(p, cone, side, pixels);
+            for (std::size_t i = 0; i < pixels.size(); ++i) {
+                from_list.add(pixels[i].column, pixels[i].row, pixels[i].mask);
+                ASSERT_TRUE(i == 0 || std::pair(pixels[i - 1].row, pixels[i - 1].column) <
+                                          std::pair(pixels[i].row, pixels[i].column))
+                    << "row by row, each pixel once";
+            }
+            listed += static_cast<int>(pixels.size());
+            // Where no boundary may cut it, nothing is cut off.
+            pen.draw(cone);
+            const bool may_cut = clipper.may_cut(p, radius_px, side);
+            bool is_cut = false;
+            for (int y = 0; y < kSize; ++y) {
+                for (int x = 0; x < kSize; ++x) {
+                    ASSERT_EQ(from_list.at(x, y).rows, drawn.at(x, y).rows) << "trial " << trial;
+                    is_cut = is_cut || drawn.at(x, y).rows != pen.at(x, y).rows;
+                }
+            }
+            ASSERT_TRUE(may_cut || !is_cut) << "trial " << trial;
+            whole += !may_cut;
+            cut += is_cut;
+        }
+    }
+    EXPECT_GT(listed, 100000);
+    EXPECT_GT(whole, 500);
+    EXPECT_GT(cut, 500);
 }
 
 // Boundaries are found by place where there are many: others farther away change nothing.
