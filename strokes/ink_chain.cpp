@@ -51,20 +51,21 @@ void InkTile::draw_chain(std::span<const InkSegmentRef> segments) {
 }
 
 /// Lets the bodies of a chain's parts meet where no disc is needed. Segments that are not in the tile have none of their
-/// joints there.
+/// joints there. Where boundaries cut a part, the disc of the next one may lie beyond what cuts it.
 void InkTile::join_parts() {
     const Placed* last = nullptr;
-    InkSegment::Part* before = nullptr;
+    InkSegment::Part* before = nullptr;  // that may be joined
     for (Placed& placed : placed_) {
-        const bool goes_on = last != nullptr && last->ref.stroke == placed.ref.stroke &&
-                             last->ref.point + 1 == placed.ref.point;
-        if (!goes_on) before = nullptr;
+        const bool goes_on =
+            last != nullptr && last->ref.stroke == placed.ref.stroke && last->ref.point + 1 == placed.ref.point;
+        if (!goes_on || placed.is_cut) before = nullptr;
+        last = &placed;
+        if (placed.is_cut) continue;
         for (InkSegment::Part& part : placed.segment.parts()) {
             if (before != nullptr) InkSegment::join(*before, part);
             before = &part;
         }
         if (placed.segment.parts().empty()) before = nullptr;
-        last = &placed;
     }
 }
 
@@ -86,7 +87,7 @@ void InkTile::draw_parts(bool is_thin, bool body_only) {
             if (part.is_thin != is_thin) continue;
             const bool changes = has_body_first(placed, part);
             if (placed.is_cut) {
-                if (body_only ? changes : !changes || part.needs_disc()) draw_cut(placed, part, body_only, next_cut);
+                if (changes || !body_only) draw_cut(placed, part, body_only, next_cut);
             } else if (body_only) {
                 if (changes) one_.draw(kernels_, part.body(), rect_, use);
             } else if (!changes) {
@@ -102,10 +103,9 @@ void InkTile::draw_parts(bool is_thin, bool body_only) {
     }
 }
 
-/// Draws a part that boundaries may cut, or its body. What is left of a part with discs is found when its body is
-/// drawn, and kept.
+/// Draws a part that boundaries may cut, or its body. What is left of the part is found when its body is drawn, and kept.
 void InkTile::draw_cut(const Placed& placed, const InkSegment::Part& part, bool body_only, std::size_t& next_cut) {
-    if (body_only && part.needs_disc()) {
+    if (body_only) {
         const std::size_t first = cut_pixels_.size();
         list_clipped(placed, part.cone, cut_pixels_);
         cut_ends_.push_back(cut_pixels_.size());
@@ -121,13 +121,13 @@ void InkTile::draw_cut(const Placed& placed, const InkSegment::Part& part, bool 
         return;
     }
     std::span<const StrokeClipper::CutPixel> pixels;
-    if (!body_only && has_body_first(placed, part)) {
+    if (has_body_first(placed, part)) {
         const std::size_t first = next_cut == 0 ? 0 : cut_ends_[next_cut - 1];
         pixels = std::span(cut_pixels_).subspan(first, cut_ends_[next_cut] - first);
         ++next_cut;
     } else {
         cut_once_.clear();
-        list_clipped(placed, body_only ? part.body() : part.cone, cut_once_);
+        list_clipped(placed, part.cone, cut_once_);
         pixels = cut_once_;
     }
     for (const StrokeClipper::CutPixel& pixel : pixels) take(placed, pixel.column, pixel.row, pixel.mask);

@@ -76,7 +76,9 @@ void InkSegment::join(Part& before, Part& after) {
     const auto is_level_way = [](glm::dvec2 way) { return is_level(way.x, way.y); };
     const glm::dvec2 way_before = way_of(before.cone), way_after = way_of(after.cone);
     const double length_before = glm::length(way_before), length_after = glm::length(way_after);
-    if (!(std::min(length_before, length_after) > 0) || is_level_way(way_before) != is_level_way(way_after)) return;
+    if (!(std::min(length_before, length_after) > 0) || is_level_way(way_before) != is_level_way(way_after) ||
+        before.cone.cut_count + after.cone.cut_count > 0)
+        return;
     const double slope_before = (before.cone.radius_from - before.cone.radius_to) / length_before,
                  slope_after = (after.cone.radius_from - after.cone.radius_to) / length_after;
     const double product = length_before * length_after;
@@ -85,13 +87,16 @@ void InkSegment::join(Part& before, Part& after) {
     // asin(slope_before). This is at least as large for slopes of at most 1/2 and angles of at most 1/4.
     const double angle = 1.02 * sine + 1.16 * std::max(slope_after - slope_before, 0.0);
     const double radius = before.cone.radius_to;
-    // The sides of both bodies, made longer until they meet, lie outside of the disc by radius angle^2 / 8.
+    // The sides of both bodies, made longer until they meet, lie outside of the disc by radius angle^2 / 8; their corners,
+    // which go on a little, by at most 1/64.
     constexpr double kMostBeyondPx = 1.0 / 128, kMostAngle = 0.25, kMostSlope = 0.5;
-    if (glm::dot(way_before, way_after) <= 0 || std::max(std::abs(slope_before), std::abs(slope_after)) > kMostSlope ||
-        angle > kMostAngle || radius * angle * angle > 8 * kMostBeyondPx)
+    const double steeper = std::max(std::abs(slope_before), std::abs(slope_after));
+    if (glm::dot(way_before, way_after) <= 0 || steeper > kMostSlope || angle > kMostAngle ||
+        radius * angle * angle > 8 * kMostBeyondPx)
         return;
-    constexpr double kOverlapPx = 1.0 / 32;                   // for what rounding may leave between them
-    const double longer = 0.6 * radius * angle + kOverlapPx;  // tan(angle / 2) / cos(asin(slope)) at most
+    constexpr double kOverlapPx = 1.0 / 64;  // for what rounding may leave between them
+    // tan(angle / 2) along the sides, which are not along the way.
+    const double longer = 0.503 * radius * angle / std::sqrt(1 - steeper * steeper) + kOverlapPx;
     if (longer > std::min(length_before, length_after)) return;
     before.longer_px[1] = after.longer_px[0] = static_cast<float>(longer);
 }

@@ -20,7 +20,6 @@ class InkSegment {
         /// Of its first and last end: how much longer its body is drawn to meet that of the next part of the stroke.
         /// Nothing where only a disc fills what is between them.
         std::array<std::optional<float>, 2> longer_px;
-        bool needs_disc() const { return !longer_px[0] || !longer_px[1]; }
         /// Its body, made longer.
         PenCone body() const;
     };
