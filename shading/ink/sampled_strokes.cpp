@@ -109,55 +109,103 @@ bool halve(const LineColumns& lines, std::span<const ChainValues> chains, Stroke
 }
 
 /// Directions to the right of a run's way, at both ends of one of its pieces: in the middle between those of pieces
-/// that meet, and longer where these turn, so that a moved line keeps its distance. Hairs between pieces do not count:
-/// where lines were found from one sample to the next, they run anywhere.
+/// that meet, and longer where these turn, so that a moved line keeps its distance. Where a line runs to and fro within
+/// a pixel or a few, its pieces run as the line does around them: contours fold back here and there, and a line that is
+/// moved far from one would have a spike for each of these folds.
 class Across {
   public:
     explicit Across(const LineRuns& runs) : runs_(runs) {}
 
-    glm::dvec2 at(const LineSample& sample) const {
-        return glm::mix(joint(sample.run, sample.piece, false), joint(sample.run, sample.piece, true), sample.share);
+    /// For a line that is moved by that much.
+    glm::dvec2 at(const LineSample& sample, double offset_px) const {
+        const double around_px = std::clamp(0.5 * std::abs(offset_px), kLeastAroundPx, kMostAroundPx);
+        return glm::mix(joint(sample.run, sample.piece, false, around_px),
+                        joint(sample.run, sample.piece, true, around_px), sample.share);
     }
 
   private:
+    static constexpr double kLeastAroundPx = 1, kMostAroundPx = 8;
+    static constexpr int kMostPieces = 256;  // to walk over from a short one
+
     /// The piece before or behind one in its run, or the same at an end.
     static std::size_t beside(const LineRun& run, std::size_t piece, bool is_behind) {
         const std::size_t last = run.first + run.count - 1;
         if (is_behind) return piece < last ? piece + 1 : run.is_closed ? run.first : piece;
         return piece > run.first ? piece - 1 : run.is_closed ? last : piece;
     }
-    /// The first piece that is no hair, from one on to one side; that one if there is none.
-    std::size_t first_seen(const LineRun& run, std::size_t piece, bool is_behind) const {
-        constexpr double kHairPx = 1.0 / 32;
-        constexpr int kMostHairs = 64;
+    /// Where on a piece's two sides "away from the surface that ends there" is: 1 to the right of its way, -1 to the
+    /// left. Pieces of a line that fold back have that surface on the other side.
+    static double away(const LinePiece& piece) { return piece.occludes && !piece.front_on_left ? -1 : 1; }
+    static glm::dvec2 away_across(const LinePiece& p) {
+        return glm::dvec2(p.from.y - p.to.y, p.to.x - p.from.x) * away(p);
+    }
+
+    /// What a run is like around the middle of a piece.
+    struct Around {
+        glm::dvec2 sum{0.0};  // of its pieces' ways, turned away from the surface
+        double length_px = 0;
+        double turn = 0, turns = 0;  // from first to last; and all turns, whichever way
+    };
+    /// Adds what lies so far along a run to one side.
+    void look_along(const LineRun& run, std::size_t piece, bool is_behind, double around_px, Around& found) const {
         std::size_t at = piece;
-        for (int i = 0; i < kMostHairs; ++i) {
+        double share = 0.5;  // of the piece
+        for (int i = 0; i < kMostPieces && around_px > 0; ++i) {
             const LinePiece& p = runs_.pieces[at].piece;
-            if (glm::distance(p.from, p.to) >= kHairPx) return at;
+            const glm::dvec2 across = away_across(p) * share;
+            const double length = glm::length(across);
+            if (length > 0) found.sum += across * std::min(1.0, around_px / length);
+            found.length_px += std::min(length, around_px);
+            around_px -= length;
+            share = 1;
             const std::size_t next = beside(run, at, is_behind);
-            if (next == at || next == piece) break;
+            if (next == at || next == piece) return;
+            if (around_px > 0) {
+                const glm::dvec2 before = is_behind ? across : away_across(runs_.pieces[next].piece),
+                                 after = is_behind ? away_across(runs_.pieces[next].piece) : across;
+                const double turn =
+                    std::atan2(before.x * after.y - before.y * after.x, before.x * after.x + before.y * after.y);
+                found.turn += turn;
+                found.turns += std::abs(turn);
+            }
             at = next;
         }
-        return piece;
     }
-    glm::dvec2 right_of(std::size_t piece) const {
-        const LinePiece& p = runs_.pieces[piece].piece;
-        const glm::dvec2 way = p.to - p.from;
-        const double length = std::max(glm::length(way), 1e-300);
-        return {-way.y / length, way.x / length};
+    /// The direction away from the surface across a piece, or across what is around it where the line runs to and fro.
+    struct Direction {
+        glm::dvec2 unit;
+        double strength;  // less than 1 where the line turns back on itself: there is no such direction
+    };
+    Direction away_from(const LineRun& run, std::size_t piece, double around_px) const {
+        const glm::dvec2 across = away_across(runs_.pieces[piece].piece);
+        const auto unit = [](glm::dvec2 v) { return v / std::max(glm::length(v), 1e-300); };
+        if (glm::length(across) >= 2 * around_px) return {unit(across), 1};
+        Around around;
+        look_along(run, piece, true, around_px, around);
+        look_along(run, piece, false, around_px, around);
+        // Corners and curves turn one way, and not back. What turns to and fro, or right round, is a fold.
+        constexpr double kQuarterTurn = 1.5707963267948966, kSharpestCorner = 4.0 / 3 * kQuarterTurn;
+        const double excess = around.turns - std::min(std::abs(around.turn), kSharpestCorner);
+        const double folds = std::clamp(2 * excess / kQuarterTurn - 0.5, 0.0, 1.0);
+        if (folds == 0) return {unit(across), 1};
+        const double strength = std::min(2 * glm::length(around.sum) / std::max(around.length_px, 1e-300), 1.0);
+        return {unit(glm::mix(unit(across), unit(around.sum), folds)), glm::mix(1.0, strength, folds)};
     }
-    glm::dvec2 joint(std::uint32_t run_number, std::size_t piece, bool is_end) const {
+    glm::dvec2 joint(std::uint32_t run_number, std::size_t piece, bool is_end, double around_px) const {
         const LineRun& run = runs_.runs[run_number];
         const std::size_t other = beside(run, piece, is_end);
-        if (other == piece) return right_of(first_seen(run, piece, !is_end));
+        const double to_right = away(runs_.pieces[piece].piece);
+        const Direction own = away_from(run, piece, around_px);
+        if (other == piece) return to_right * own.strength * own.unit;
         // Both are the same on either side of the joint, so that the moved line has no step there.
-        const glm::dvec2 before = right_of(first_seen(run, is_end ? piece : other, false)),
-                         sum = before + right_of(first_seen(run, is_end ? other : piece, true));
-        const double square = glm::dot(sum, sum);
+        const Direction beyond = away_from(run, other, around_px);
+        const Direction &first = is_end ? own : beyond, &second = is_end ? beyond : own;
+        const glm::dvec2 sum = first.unit + second.unit;
+        const double square = glm::dot(sum, sum), strength = 0.5 * to_right * (first.strength + second.strength);
         constexpr double kMostLonger = 2;
         if (square < 4 / (kMostLonger * kMostLonger))
-            return square > 0 ? sum * (kMostLonger / std::sqrt(square)) : before;
-        return sum * (2 / square);
+            return strength * (square > 0 ? sum * (kMostLonger / std::sqrt(square)) : first.unit);
+        return strength * (2 / square) * sum;
     }
 
     const LineRuns& runs_;
@@ -201,7 +249,10 @@ std::vector<SampledStroke> sample_strokes(const LineColumns& lines, std::span<co
         point.ink.color = node.values.color;
         point.ink.occludes = piece.occludes;
         point.ink.front_on_left = piece.front_on_left;
-        if (may_move) point.ink.place += across.at(node.sample) * static_cast<double>(node.values.offset_px);
+        if (may_move) {
+            const auto offset_px = static_cast<double>(node.values.offset_px);
+            point.ink.place += across.at(node.sample, offset_px) * offset_px;
+        }
         if (may_move && node.values.offset_px != 0) strokes[node.stretch].is_moved = true;
         StrokePath& path = strokes[node.stretch].path;
         // Parts of one edge may overlap by a little; places never go back.

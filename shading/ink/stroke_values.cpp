@@ -47,6 +47,10 @@ float tapered(double distance_px, double length_px, TaperShape shape) {
     }
 }
 
+/// Lines are moved away from the surface that ends there, else to the right: 1 where that is to the right, -1 to the
+/// left.
+float to_right(const LinePiece& piece) { return piece.occludes && !piece.front_on_left ? -1.0f : 1.0f; }
+
 /// 0 up to the first edge, 1 from the second on; equal edges are a threshold, which passes.
 float faded_in(double length_px, double low_px, double high_px) {
     if (length_px >= high_px) return 1;
@@ -177,8 +181,10 @@ void StrokeValues::evaluate(std::span<const LineSample> samples, std::span<const
                 faded_in(end - begin, static_cast<double>(value_of(*chains[i], ChainValue::min_length_low)),
                          static_cast<double>(value_of(*chains[i], ChainValue::min_length_high)));
         }
-        // Away from the surface that ends there, else to the right.
-        value.offset_px = piece.occludes && !piece.front_on_left ? -offset[i] : offset[i];
+        // Crumbs, as lie where contours fold back, would be left alone far from their line, on either side of it.
+        if (const double moved_px = std::abs(static_cast<double>(offset[i])); moved_px > 0)
+            value.opacity *= faded_in(end - begin, moved_px / 8, moved_px / 4);
+        value.offset_px = to_right(piece) * offset[i];
         value.color = {color[0][i], color[1][i], color[2][i]};
     }
     if (style_.has_wobble) add_wobble(samples, chains, values);
@@ -246,7 +252,7 @@ void StrokeValues::add_wobble(std::span<const LineSample> samples, std::span<con
                 0.5 * std::max(static_cast<double>(value_of(*chains[i], ChainValue::wobble_wavelength)), 0.25);
             strength *= static_cast<float>(std::clamp(to_end / half, 0.0, 1.0));
         }
-        values[i].offset_px += strength * sum[i];
+        values[i].offset_px += to_right(runs.pieces[samples[i].piece].piece) * strength * sum[i];
     }
 }
 

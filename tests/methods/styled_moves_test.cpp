@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "mesh/shapes.h"
@@ -86,6 +87,28 @@ TEST(StyledPlaces, OffsetOfSmallPolygonsKeepsTheirCorners) {
                 }
             }
         }
+    }
+}
+
+/// Contours of a mesh fold back by a pixel here and there, as where they pass from facet to facet. A line that is moved
+/// far from such a contour has no spikes there: moved outwards by 12 pixels it is a little longer than the contour.
+TEST(StyledPlaces, OffsetOfContoursThatFoldHasNoSpikes) {
+    for (const char* contours : {"mesh", "smooth"}) {
+        const std::string sheet = "contours = \"" + std::string(contours) + "\"\n" +
+                                  sheet_of(R"("silhouette")", "width = 1\noffset = 12\nmin_length = 6");
+        const ShadedScene scene(read_scene_file(BURIN_SOURCE_FOLDER "/scenes/teapot.toml", {}), sheet, 800, 500);
+        const LineRuns runs = scene.found().runs;
+        double found = 0, drawn = 0;
+        for (const LineRun& run : runs.runs) {
+            if (runs.length_px(run) >= 6) found += runs.length_px(run);
+        }
+        const InkedLines lines = scene.inked();
+        for (const InkStroke& stroke : lines.strokes) {
+            const auto p = lines.points_of(stroke);
+            for (std::size_t i = 1; i < p.size(); ++i) drawn += glm::distance(p[i - 1].place, p[i].place);
+        }
+        EXPECT_GT(found, 1000) << contours;
+        EXPECT_NEAR(drawn, found, 0.2 * found) << contours;
     }
 }
 
