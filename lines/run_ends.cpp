@@ -54,6 +54,13 @@ struct Neighbour {
     std::size_t index;  // in LineRuns::pieces
 };
 
+/// How far along a piece the place lies that is nearest to another place, as a share.
+double nearest_share(glm::dvec2 place, glm::dvec2 from, glm::dvec2 to) {
+    const glm::dvec2 way = to - from;
+    const double square = glm::dot(way, way);
+    return square > 0 ? std::clamp(glm::dot(place - from, way) / square, 0.0, 1.0) : 0.0;
+}
+
 /// PieceCells holds pieces by the square cells of the picture that they touch.
 class PieceCells {
   public:
@@ -72,8 +79,7 @@ class PieceCells {
         std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
         for (std::size_t i = 0; i < pieces.size(); ++i) {
             const LinePiece& piece = *pieces[i].piece;
-            const Entry entry{0.5 * (piece.from + piece.to), 0.5 * glm::distance(piece.from, piece.to), i};
-            for_cells(piece, [&](std::size_t cell) { entries_[next[cell]++] = entry; });
+            for_cells(piece, [&](std::size_t cell) { entries_[next[cell]++] = {piece.from, piece.to, i}; });
         }
     }
 
@@ -87,8 +93,8 @@ class PieceCells {
             const std::size_t end = first_[static_cast<std::size_t>(cell) + 1];
             for (std::size_t i = first_[static_cast<std::size_t>(cell)]; i < end; ++i) {
                 const Entry& e = entries_[i];
-                const glm::dvec2 way = e.middle - from.place;
-                const double reach = e.radius_px + (is_ahead(from, way, e.radius_px) ? ahead_px() : around_px());
+                const glm::dvec2 way = e.from + nearest_share(from.place, e.from, e.to) * (e.to - e.from) - from.place;
+                const double reach = (is_ahead(from, way, 0) ? ahead_px() : around_px()) + kRoundedPx;
                 if (glm::dot(way, way) <= reach * reach) visit(e.piece);
             }
         };
@@ -114,8 +120,7 @@ class PieceCells {
   private:
     static constexpr double kLeastCellPx = 2, kReachPx = kMeetsPx + static_cast<double>(kFarthestGapPx);
     struct Entry {
-        glm::dvec2 middle;
-        double radius_px;
+        glm::dvec2 from, to;
         std::size_t piece;
     };
 
@@ -178,10 +183,8 @@ struct Nearest {
     double distance_px = 0;
 };
 Nearest nearest(glm::dvec2 place, const LinePiece& other) {
-    const glm::dvec2 way = other.to - other.from;
-    const double square = glm::dot(way, way);
-    const double share = square > 0 ? std::clamp(glm::dot(place - other.from, way) / square, 0.0, 1.0) : 0.0;
-    return {share, glm::distance(place, other.from + way * share)};
+    const double share = nearest_share(place, other.from, other.to);
+    return {share, glm::distance(place, other.from + (other.to - other.from) * share)};
 }
 
 /// RunEnds looks for what meets the ends of runs.

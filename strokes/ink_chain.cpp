@@ -50,8 +50,8 @@ void InkTile::draw_chain(std::span<const InkSegmentRef> segments) {
                    records_.end());
 }
 
-/// Lets the bodies of a chain's parts meet where no disc is needed. Segments that are not in the tile have none of their
-/// joints there. Where boundaries cut a part, the disc of the next one may lie beyond what cuts it.
+/// Lets the bodies of a chain's parts meet where no disc is needed. Segments that are not in the tile have none of
+/// their joints there. Where boundaries cut a part, the disc of the next one may lie beyond what cuts it.
 void InkTile::join_parts() {
     const Placed* last = nullptr;
     InkSegment::Part* before = nullptr;  // that may be joined
@@ -103,7 +103,8 @@ void InkTile::draw_parts(bool is_thin, bool body_only) {
     }
 }
 
-/// Draws a part that boundaries may cut, or its body. What is left of the part is found when its body is drawn, and kept.
+/// Draws a part that boundaries may cut, or its body. What is left of the part is found when its body is drawn, and
+/// kept.
 void InkTile::draw_cut(const Placed& placed, const InkSegment::Part& part, bool body_only, std::size_t& next_cut) {
     if (body_only) {
         const std::size_t first = cut_pixels_.size();

@@ -87,8 +87,8 @@ void InkSegment::join(Part& before, Part& after) {
     // asin(slope_before). This is at least as large for slopes of at most 1/2 and angles of at most 1/4.
     const double angle = 1.02 * sine + 1.16 * std::max(slope_after - slope_before, 0.0);
     const double radius = before.cone.radius_to;
-    // The sides of both bodies, made longer until they meet, lie outside of the disc by radius angle^2 / 8; their corners,
-    // which go on a little, by at most 1/64.
+    // The sides of both bodies, made longer until they meet, lie outside of the disc by radius angle^2 / 8; their
+    // corners, which go on a little, by at most 1/64.
     constexpr double kMostBeyondPx = 1.0 / 128, kMostAngle = 0.25, kMostSlope = 0.5;
     const double steeper = std::max(std::abs(slope_before), std::abs(slope_after));
     if (glm::dot(way_before, way_after) <= 0 || steeper > kMostSlope || angle > kMostAngle ||
