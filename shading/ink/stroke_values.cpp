@@ -130,9 +130,12 @@ float StrokeValues::share_of_loop(const LineSample& sample) const {
     return length > 0 ? static_cast<float>((lines_.at_of(sample) - runs.pieces[run.first].at_from_px) / length) : 0;
 }
 
-float StrokeValues::taper(const LineRun& run, const ChainValues& chain, double from_begin_px,
-                          double from_end_px) const {
+float StrokeValues::taper_at(const LineSample& sample, const ChainValues& chain) const {
+    const LineRuns& runs = lines_.runs();
+    const LineRun& run = runs.runs[sample.run];
     if (!style_.has_taper || run.is_closed) return 1;
+    const double at = lines_.at_of(sample), from_begin_px = at - runs.pieces[run.first].at_from_px,
+                 from_end_px = runs.pieces[run.first + run.count - 1].at_to_px - at;
     const auto length = [&](ChainValue v, std::size_t which) {
         const double share = style_.taper_at == TaperAt::all ? 1 : freedom(run.gaps_px[which]);
         return share * std::max(0.0, static_cast<double>(value_of(chain, v)));
@@ -140,6 +143,18 @@ float StrokeValues::taper(const LineRun& run, const ChainValues& chain, double f
     double start = length(ChainValue::taper_start, 0), end = length(ChainValue::taper_end, 1);
     fit(start, end, from_begin_px + from_end_px);
     return tapered(from_begin_px, start, style_.taper_shape) * tapered(from_end_px, end, style_.taper_shape);
+}
+
+float StrokeValues::length_strength(std::uint32_t run, const ChainValues& chain) const {
+    if (!style_.has_min_length) return 1;
+    return faded_in(lines_.runs().length_px(lines_.runs().runs[run]),
+                    static_cast<double>(value_of(chain, ChainValue::min_length_low)),
+                    static_cast<double>(value_of(chain, ChainValue::min_length_high)));
+}
+
+float StrokeValues::moved_strength(std::uint32_t run, float offset_px) const {
+    const double moved_px = std::abs(static_cast<double>(offset_px));
+    return moved_px > 0 ? faded_in(lines_.runs().length_px(lines_.runs().runs[run]), moved_px / 8, moved_px / 4) : 1;
 }
 
 void StrokeValues::note(std::size_t value, const NotNumbers& found, std::span<const LineSample> samples) {
@@ -169,21 +184,11 @@ void StrokeValues::evaluate(std::span<const LineSample> samples, std::span<const
     const float* const offset = results_[column_of(InkValue::offset)].data();
     const std::vector<float>* const color = &results_[column_of(InkValue::color)];
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        const LineRun& run = runs.runs[samples[i].run];
         const LinePiece& piece = runs.pieces[samples[i].piece].piece;
-        const double at = lines_.at_of(samples[i]), begin = runs.pieces[run.first].at_from_px,
-                     end = runs.pieces[run.first + run.count - 1].at_to_px;
         InkValues& value = values[i];
-        value.width_px = width[i] * taper(run, *chains[i], at - begin, end - at);
+        value.width_px = width[i] * taper_at(samples[i], *chains[i]);
         value.opacity = opacity[i] * (static_cast<float>(piece.seen_opacity()) / 255.0f);
-        if (style_.has_min_length) {
-            value.opacity *=
-                faded_in(end - begin, static_cast<double>(value_of(*chains[i], ChainValue::min_length_low)),
-                         static_cast<double>(value_of(*chains[i], ChainValue::min_length_high)));
-        }
-        // Crumbs, as lie where contours fold back, would be left alone far from their line, on either side of it.
-        if (const double moved_px = std::abs(static_cast<double>(offset[i])); moved_px > 0)
-            value.opacity *= faded_in(end - begin, moved_px / 8, moved_px / 4);
+        value.opacity *= length_strength(samples[i].run, *chains[i]) * moved_strength(samples[i].run, offset[i]);
         value.offset_px = to_right(piece) * offset[i];
         value.color = {color[0][i], color[1][i], color[2][i]};
     }

@@ -98,6 +98,13 @@ class StrokeValues {
     /// For each sample the ink; `chains[i]`: the chain values of sample i's stretch.
     void evaluate(std::span<const LineSample> samples, std::span<const ChainValues* const> chains,
                   std::vector<InkValues>& values);
+    /// What the width is multiplied by where the line tapers; 1: it does not.
+    float taper_at(const LineSample& sample, const ChainValues& chain) const;
+    /// What `min_length` multiplies the opacity of a run by.
+    float length_strength(std::uint32_t run, const ChainValues& chain) const;
+    /// How much is left of a run that its style's offset moves. Crumbs, as lie where contours fold back, would be left
+    /// alone far from their line, on either side of it.
+    float moved_strength(std::uint32_t run, float offset_px) const;
     /// Whether anything changes along a piece, so that there must be samples between its ends.
     bool varies() const { return varies_; }
     /// Whether lines may be drawn beside their places.
@@ -112,7 +119,6 @@ class StrokeValues {
     void add_wobble(std::span<const LineSample> samples, std::span<const ChainValues* const> chains,
                     std::vector<InkValues>& values);
     float share_of_loop(const LineSample& sample) const;
-    float taper(const LineRun& run, const ChainValues& chain, double from_begin_px, double from_end_px) const;
 
     const LineColumns& lines_;
     const CompiledStyle& style_;
