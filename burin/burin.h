@@ -285,9 +285,9 @@ BURIN_API const void* burin_column(burin_drawing* drawing, const char* name, int
 
 /** Why a pixel of a scene with a style sheet looks as it does, as `burin explain` of the program says it: the strokes
  * in it, the topmost first, each with its set and why earlier sets did not take it, its style, its line, and the values
- * with the variables that they read. `x`, `y`: from the upper left corner of the whole picture, within the crop.
- * `format`: "text", or "json" (docs/shading/sheets.md). Of `options` only `threads` counts. Valid until the next call
- * for this scene, which owns it. */
+ * with the variables that they read; then the lines near it that leave no ink there, and why. `x`, `y`: from the upper
+ * left corner of the whole picture, within the crop. `format`: "text", or "json" (docs/shading/sheets.md). Of `options`
+ * only `threads` counts. Valid until the next call for this scene, which owns it. */
 BURIN_API const char* burin_explain(burin_scene* scene, const burin_view* view, const burin_options* options, int x,
                                     int y, const char* format);
 

@@ -20,8 +20,8 @@ const char* burin_explain(burin_scene* scene, const burin_view* view, const buri
         const PixelRect& crop = frame.crop;
         if (x < crop.x0 || x >= crop.x1 || y < crop.y0 || y >= crop.y1)
             throw UsageError("x, y: must be a pixel of the picture, within its crop");
-        const std::vector<ExplainedStroke> strokes = explain_strokes(frame, x, y, call.given().threads);
-        scene->explanation = wanted == "json" ? json_of(strokes, x, y) : text_of(strokes);
+        const ExplainedPlace place = explain_strokes(frame, x, y, call.given().threads);
+        scene->explanation = wanted == "json" ? json_of(place) : text_of(place);
         return scene->explanation.c_str();
     });
 }

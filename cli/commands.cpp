@@ -7,6 +7,7 @@
 #include "cli/blur.h"
 #include "cli/job.h"
 #include "cli/sheet_refusal.h"
+#include "mesh/model.h"
 #include "methods/abuffer.h"
 #include "methods/explain_strokes.h"
 #include "methods/patel/explain.h"
@@ -34,15 +35,16 @@ void run_explain(const Arguments& a) {
     }
     if (a.json) {
         if (!frame.sheet) throw UsageError("--json: has the strokes of a style sheet; give one with --style");
-        std::fputs(json_of(explain_strokes(frame, x, y), x, y).c_str(), stdout);
+        std::fputs(json_of(explain_strokes(frame, x, y, a.threads)).c_str(), stdout);
         return;
     }
+    const bool is_model = !a.size && !a.paper_mm && a.page == PagePreset::none && is_model_file(a.input);
+    if (frame.sheet || is_model)
+        std::printf("pixel %d,%d of a picture of %dx%d pixels%s\n", x, y, frame.width, frame.height,
+                    is_model ? "; --size WxH asks for another one" : "");
+    if (frame.sheet) std::printf("%s\n", text_of(explain_strokes(frame, x, y, a.threads)).c_str());
     std::fputs(explain_pixel(frame, x, y).c_str(), stdout);
-    if (frame.sheet) {
-        std::fputs(text_of(explain_strokes(frame, x, y)).c_str(), stdout);
-    } else if (a.method != "patel") {
-        std::fputs(drawn_by_abuffer(frame, x, y).c_str(), stdout);
-    }
+    if (!frame.sheet && a.method != "patel") std::fputs(drawn_by_abuffer(frame, x, y).c_str(), stdout);
 }
 
 void run_methods(const Arguments& a) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "mesh/text_scan.h"
 #include "methods/abuffer.h"
 #include "shading/ink/ink_lines.h"
+#include "shading/ink/line_chunks.h"
 #include "shading/ink/line_columns.h"
 #include "shading/line_shader.h"
 #include "shading/sheet/compiled_sheet.h"
@@ -20,7 +23,11 @@
 namespace burin {
 namespace {
 
-constexpr const char* kSelect = "its select is false";
+/// Ink that cannot be seen, of a stroke that is there for its halo alone.
+constexpr float kNoInk = 1e-9f;
+
+/// Without what such ink and rounding leave.
+double cleaned(double share) { return share < 1e-6 ? 0 : share; }
 
 double distance_to(glm::dvec2 place, glm::dvec2 a, glm::dvec2 b, double& share) {
     const glm::dvec2 way = b - a;
@@ -53,14 +60,17 @@ class StrokeExplainer {
           surfaces_({0, 0, frame.width, frame.height}, frame.crop,
                     {true, false, false, false, false, false, false, false, {}}, frame.criteria.classes),
           found_(lines_for_sheet(find_drawing(frame, {threads}, surfaces_), frame, threads)),
-          columns_(found_, sheet_.needs().classes, all_variables()) {
+          columns_(found_, sheet_.needs().classes, all_variables()),
+          matches_(match_pieces(columns_, sheet_)),
+          teller_(frame) {
         inked_ = ink_lines(found_, sheet_, threads, notes_);
         inked_.filter = frame.scene->lines.style.filter;
         pixel_ = frame;
         if (reach_px > 0) go_to_nearest_ink(reach_px, threads);
         pixel_.crop = {x_, y_, x_ + 1, y_ + 1};
         for (std::size_t i = 0; i < inked_.strokes.size(); ++i) {
-            if (reaches(inked_.strokes[i])) near_.push_back(i);
+            const InkStroke& stroke = inked_.strokes[i];
+            if (reaches(stroke, static_cast<double>(stroke.halo_px))) near_.push_back(i);
         }
         std::stable_sort(near_.begin(), near_.end(), [this](std::size_t a, std::size_t b) {
             const InkStroke &s = inked_.strokes[a], &t = inked_.strokes[b];
@@ -68,26 +78,44 @@ class StrokeExplainer {
             const float p = nearness(s), q = nearness(t);
             return p != q ? p > q : s.chain < t.chain;
         });
+        some_.boundaries = inked_.boundaries;
+        some_.filter = inked_.filter;
+        some_.layers = inked_.layers;
+        some_.sets = inked_.sets;
+        put_near_strokes();
     }
 
     int x() const { return x_; }
     int y() const { return y_; }
 
-    std::vector<ExplainedStroke> strokes() const {
+    std::vector<ExplainedStroke> strokes() {
         std::vector<ExplainedStroke> strokes;
-        std::vector<std::size_t> drawn;
         double before = 0;
-        for (const std::vector<std::size_t>& parts : near_strokes()) {
-            const double covers = ink_of(parts);
+        for (std::size_t i = 0; i < near_strokes_.size(); ++i) {
+            const double covers = ink_of({&i, 1}, {});
             if (covers == 0) continue;
-            drawn.insert(drawn.end(), parts.begin(), parts.end());
-            const double all = ink_of(drawn);
-            strokes.push_back(explained(inked_.strokes[parts.front()]));
-            strokes.back().covers = covers;
-            strokes.back().shows = std::max(all - before, 0.0);
+            const NearStroke& near = near_strokes_[i];
+            drawn_.push_back(i);
+            // Halos of strokes below erase, too.
+            const double all = ink_of(drawn_, halos_without(drawn_));
+            strokes.push_back(explained(inked_.strokes[near.parts.front()]));
+            ExplainedStroke& stroke = strokes.back();
+            stroke.covers = covers;
+            stroke.area = ink_of({&i, 1}, {}, true);
+            stroke.shows = cleaned(all - before);
+            add_erasing(i, stroke);
             before = all;
         }
         return strokes;
+    }
+    /// After strokes().
+    std::vector<UndrawnLine> undrawn(int threads) const {
+        std::set<std::pair<std::uint32_t, std::uint32_t>> inked;
+        for (const std::size_t i : drawn_) {
+            const InkStroke& stroke = inked_.strokes[near_strokes_[i].parts.front()];
+            inked.emplace(stroke.order.set, InkStroke::run_of(stroke.chain));
+        }
+        return undrawn_lines(frame_, {columns_, matches_, inked_}, x_, y_, inked, threads);
     }
 
   private:
@@ -98,30 +126,50 @@ class StrokeExplainer {
     }
     glm::dvec2 middle() const { return {x_ + 0.5, y_ + 0.5}; }
 
-    /// The parts of each stroke that are near, as its dashes are; the strokes in the order of their uppermost parts.
-    std::vector<std::vector<std::size_t>> near_strokes() const {
-        std::vector<std::vector<std::size_t>> strokes;
+    /// A stroke whose ink or halo may reach the pixel.
+    struct NearStroke {
+        std::vector<std::size_t> parts;               ///< as its dashes are
+        std::vector<InkStroke> inked, opaque, halos;  ///< its near parts in some_: as they are, opaque, without ink
+    };
+
+    /// Puts the points of near strokes into some_. Strokes are in the order of their uppermost parts.
+    void put_near_strokes() {
         for (const std::size_t i : near_) {
-            const auto is_same = [&](const std::vector<std::size_t>& parts) {
-                const InkStroke &a = inked_.strokes[parts.front()], &b = inked_.strokes[i];
-                return a.chain == b.chain && a.order == b.order;
+            const InkStroke& part = inked_.strokes[i];
+            const auto is_same = [&](const NearStroke& near) {
+                const InkStroke& other = inked_.strokes[near.parts.front()];
+                return other.chain == part.chain && other.order == part.order;
             };
-            const auto known = std::find_if(strokes.begin(), strokes.end(), is_same);
-            if (known != strokes.end()) {
-                known->push_back(i);
-            } else {
-                strokes.push_back({i});
+            auto known = std::find_if(near_strokes_.begin(), near_strokes_.end(), is_same);
+            if (known == near_strokes_.end()) known = near_strokes_.insert(known, NearStroke{});
+            known->parts.push_back(i);
+            if (reaches(part, 0)) {
+                known->inked.push_back(put(part, [](float opacity) { return opacity; }));
+                known->opaque.push_back(put(part, [](float opacity) { return opacity > 0 ? 1.0f : 0.0f; }));
+                known->opaque.back().blend = InkBlend::over;
             }
+            if (part.halo_px <= 0) continue;
+            known->halos.push_back(put(part, [](float opacity) { return opacity > 0 ? kNoInk : 0.0f; }));
+            known->halos.back().blend = InkBlend::over;
         }
-        return strokes;
+    }
+    template <typename Opacity>
+    InkStroke put(InkStroke stroke, const Opacity& opacity) {
+        const auto points = inked_.points_of(stroke);
+        stroke.first_point = some_.points.size();
+        for (InkPoint point : points) {
+            point.opacity = opacity(point.opacity);
+            some_.points.push_back(point);
+        }
+        return stroke;
     }
 
-    bool reaches(const InkStroke& stroke) const {
+    bool reaches(const InkStroke& stroke, double halo_px) const {
         const auto points = inked_.points_of(stroke);
         double share = 0;
         for (std::size_t i = 0; i + 1 < points.size(); ++i) {
             const double radius = 0.5 * static_cast<double>(std::max(points[i].width_px, points[i + 1].width_px));
-            if (distance_to(middle(), points[i].place, points[i + 1].place, share) < radius + 3) return true;
+            if (distance_to(middle(), points[i].place, points[i + 1].place, share) < radius + halo_px + 3) return true;
         }
         return false;
     }
@@ -166,23 +214,59 @@ class StrokeExplainer {
             }
         }
     }
-    /// How much ink some of the strokes leave in the pixel.
-    double ink_of(const std::vector<std::size_t>& strokes) const {
-        InkedLines some = inked_;
-        some.strokes.clear();
-        for (const std::size_t i : strokes) some.strokes.push_back(inked_.strokes[i]);
-        const Film film = drawn(some, pixel_.crop, 1);
+    /// How much ink near strokes leave in the pixel, where halos of others erase.
+    double ink_of(std::span<const std::size_t> strokes, std::span<const std::size_t> halos, bool is_opaque = false) {
+        some_.strokes.clear();
+        const auto add = [this](const std::vector<InkStroke>& parts) {
+            some_.strokes.insert(some_.strokes.end(), parts.begin(), parts.end());
+        };
+        for (const std::size_t i : strokes) {
+            add(is_opaque ? near_strokes_[i].opaque : near_strokes_[i].inked);
+            // Of its parts that are too far away for ink of theirs.
+            if (!is_opaque && near_strokes_[i].inked.size() < near_strokes_[i].halos.size())
+                add(near_strokes_[i].halos);
+        }
+        for (const std::size_t i : halos) add(near_strokes_[i].halos);
+        if (some_.strokes.empty()) return 0;
+        const Film film = drawn(some_, pixel_.crop, 1);
         const Channel* const alpha = film.image().find("A");
-        return alpha == nullptr ? 0 : film.image().value(*alpha, 0, 0);
+        return alpha == nullptr ? 0 : cleaned(film.image().value(*alpha, 0, 0));
+    }
+    /// The strokes with halos, without some.
+    std::vector<std::size_t> halos_without(std::span<const std::size_t> strokes) const {
+        std::vector<std::size_t> halos;
+        for (std::size_t i = 0; i < near_strokes_.size(); ++i) {
+            const bool is_left_out = std::find(strokes.begin(), strokes.end(), i) != strokes.end();
+            if (!is_left_out && !near_strokes_[i].halos.empty()) halos.push_back(i);
+        }
+        return halos;
+    }
+    /// Says which halos erase ink of a near stroke.
+    void add_erasing(std::size_t number, ExplainedStroke& to) {
+        const std::vector<std::size_t> halos = halos_without({&number, 1});
+        if (halos.empty()) return;
+        to.erased = cleaned(to.covers - ink_of({&number, 1}, halos));
+        if (to.erased == 0) return;
+        for (const std::size_t i : halos) {
+            const double share = cleaned(to.covers - ink_of({&number, 1}, {&i, 1}));
+            if (share == 0) continue;
+            const InkStroke& by = inked_.strokes[near_strokes_[i].parts.front()];
+            const LineSample sample = sample_of(by);
+            const ExplainedLine line = teller_.told(found_.runs.pieces[sample.piece].piece, found_.sides[sample.piece]);
+            to.erased_by.push_back(
+                {sheet_.sets()[by.order.set].name, by.order.drawn_as, line.front, sample.run, share});
+        }
     }
 
-    /// The place of the stroke's line that is nearest to the pixel.
+    /// The place of what the stroke's set takes of its line that is nearest to the pixel.
     LineSample sample_of(const InkStroke& stroke) const {
         const auto run = InkStroke::run_of(stroke.chain);
         const LineRun& r = found_.runs.runs[run];
         LineSample best{run, static_cast<std::uint32_t>(r.first), 0};
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t i = r.first; i < r.first + r.count; ++i) {
+            const auto takers = matches_.of(i);
+            if (std::find(takers.begin(), takers.end(), stroke.order.set) == takers.end()) continue;
             double share = 0;
             const LinePiece& piece = found_.runs.pieces[i].piece;
             const double distance = distance_to(middle(), piece.from, piece.to, share);
@@ -193,31 +277,6 @@ class StrokeExplainer {
         return best;
     }
 
-    ExplainedSide side_of(std::uint32_t object, std::uint32_t material) const {
-        return {object, material, object == 0 ? "" : found_.objects[object - 1].name,
-                material == 0 ? "" : found_.materials[material - 1]};
-    }
-
-    /// Why a set does not take a piece; empty: it does, or its `select` is false.
-    std::string refusal(const CompiledSet& set, const LineSample& sample) const {
-        const LinePiece& piece = found_.runs.pieces[sample.piece].piece;
-        const LineClass c = sheet_.class_of(piece.classes).value_or(piece.drawn_as);
-        if (!set.is_enabled) return "it is not enabled";
-        if (!set.classes.has(c)) return "class " + std::string(name_of(c)) + " is not in its classes";
-        if (piece.invisibility < set.qi[0] || piece.invisibility > set.qi[1])
-            return "qi " + std::to_string(piece.invisibility) + " is not in its range";
-        const LineSides& sides = found_.sides[sample.piece];
-        const auto has = [](const std::vector<bool>& taken, std::uint32_t number) {
-            return number < taken.size() && taken[number];
-        };
-        if (set.has_object_globs && !has(set.objects, sides.front_object) && !has(set.objects, sides.other_object))
-            return "no object fits its objects";
-        if (set.has_material_globs && !has(set.materials, sides.front_material) &&
-            !has(set.materials, sides.other_material))
-            return "no material fits its materials";
-        return kSelect;
-    }
-
     ExplainedStroke explained(const InkStroke& stroke) const {
         const LineSample sample = sample_of(stroke);
         const LinePiece& piece = found_.runs.pieces[sample.piece].piece;
@@ -225,23 +284,15 @@ class StrokeExplainer {
         const LineSides& sides = found_.sides[sample.piece];
         const CompiledSet& set = sheet_.sets()[stroke.order.set];
         ExplainedStroke result;
+        static_cast<ExplainedLine&>(result) = teller_.told(piece, sides);
         result.set = set.name;
         result.style = frame_.scene->sheet->styles[set.style].name;
+        const auto takers = matches_.of(sample.piece);
         for (std::uint32_t earlier = 0; earlier < stroke.order.set; ++earlier) {
             const CompiledSet& other = sheet_.sets()[earlier];
-            const std::string reason = refusal(other, sample);
-            if (other.also && reason == kSelect && !other.has_select) continue;
-            result.earlier_sets.push_back({other.name, reason});
+            if (std::find(takers.begin(), takers.end(), earlier) != takers.end()) continue;
+            result.earlier_sets.push_back({other.name, teller_.refusal(other, piece, sides)});
         }
-        result.drawn_as = sheet_.class_of(piece.classes).value_or(piece.drawn_as);
-        result.classes = piece.classes;
-        result.is_edge = piece.line.is_edge();
-        result.dihedral_deg = static_cast<double>(sides.dihedral_deg);
-        result.crease_from_deg = found_.crease_angle_deg[0];
-        result.front = side_of(sides.front_object, sides.front_material);
-        result.other = side_of(sides.other_object, sides.other_material);
-        result.other_is_behind = sides.is_beyond;
-        result.invisibility = piece.invisibility;
         result.chain = sample.run;
         result.copy = InkStroke::copy_of(stroke.chain);
         result.s_px = columns_.at_of(sample);
@@ -262,9 +313,16 @@ class StrokeExplainer {
         std::vector<InkValues> ink;
         values.evaluate({&sample, 1}, {&chain, 1}, ink);
         to.ink = ink.front();
+        to.taper = static_cast<double>(values.taper_at(sample, *chain));
+        to.min_length = static_cast<double>(values.length_strength(sample.run, *chain));
+        const LinePiece& piece = found_.runs.pieces[sample.piece].piece;
+        to.fade = piece.opacity / 255.0;
+        to.seen = piece.transmission / 255.0;
         static_assert(kInkValueCount == 4, "each of them has a source");
         to.sources = {source_of(style.width), source_of(style.opacity), source_of(style.offset),
                       source_of(style.color)};
+        to.names = names_in(std::array{&style.width, &style.opacity, &style.offset, &style.color}, frame_, columns_,
+                            sample, variant);
         if (style.shader) to.shader = style.shader->text;
         VariableSet variables = compiled.variables;
         if (set.test) {
@@ -292,21 +350,30 @@ class StrokeExplainer {
     Film surfaces_;
     FoundLines found_;
     LineColumns columns_;
+    SetMatches matches_;
+    LineTeller teller_;
     InkedLines inked_;
     std::vector<std::string> notes_;
     Frame pixel_;
     std::vector<std::size_t> near_;  // strokes, top first
+    std::vector<NearStroke> near_strokes_;
+    InkedLines some_;                 // of near strokes
+    std::vector<std::size_t> drawn_;  // of near strokes: those with ink in the pixel
 };
 
 }  // namespace
 
-std::vector<ExplainedStroke> explain_strokes(const Frame& frame, int x, int y, int threads) {
-    return StrokeExplainer(frame, x, y, 0, resolve_thread_count(threads)).strokes();
+ExplainedPlace explain_strokes(const Frame& frame, int x, int y, int threads) {
+    const int count = resolve_thread_count(threads);
+    StrokeExplainer explainer(frame, x, y, 0, count);
+    ExplainedPlace place{x, y, frame.width, frame.height, explainer.strokes(), {}};
+    place.undrawn = explainer.undrawn(count);
+    return place;
 }
 
 ExplainedPlace explain_strokes_near(const Frame& frame, int x, int y, int reach_px, int threads) {
-    const StrokeExplainer explainer(frame, x, y, reach_px, resolve_thread_count(threads));
-    return {explainer.x(), explainer.y(), explainer.strokes()};
+    StrokeExplainer explainer(frame, x, y, reach_px, resolve_thread_count(threads));
+    return {explainer.x(), explainer.y(), frame.width, frame.height, explainer.strokes(), {}};
 }
 
 }  // namespace burin

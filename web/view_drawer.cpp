@@ -121,7 +121,7 @@ ExplainedPixel ViewDrawer::explain(const View& view, int x, int y, int reach_px)
         explained.x = place.x;
         explained.y = place.y;
         explained.reasons = reasons_of(place.strokes);
-        if (settings_.sheet) explained.lines = text_of(place.strokes);
+        if (settings_.sheet) explained.lines = text_of(place);
     });
     with_frame(view, {}, [&](const Frame& frame) {
         explained.fragments = explain_pixel(frame, explained.x, explained.y);

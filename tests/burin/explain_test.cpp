@@ -121,12 +121,36 @@ TEST(LibraryExplain, IsWhatTheProgramSays) {
         };
         EXPECT_EQ(program("--json"), from.explain(pixel[0], pixel[1], kView, "json"));
         const std::string text = from.explain(pixel[0], pixel[1], kView, "text", {.threads = 2});
-        EXPECT_TRUE(program("-v").ends_with("\n" + text)) << text;
+        // What the sheet does comes before the surfaces.
+        const std::string place = std::to_string(pixel[0]) + "," + std::to_string(pixel[1]);
+        EXPECT_EQ(program("-v").find("pixel " + place + " of a picture of 160x120 pixels\n" + text + "\npixel " +
+                                     place + " of 160x120: "),
+                  0u)
+            << program("-v");
     }
     const ProgramResult result =
         run_burin(folder.path(), {"explain", "scene.toml", "--size", "160x120", "--pixel", "3,3", "--json"});
     EXPECT_EQ(result.status, 2);
     EXPECT_NE(result.err.find("--json: has the strokes of a style sheet; give one with --style"), std::string::npos);
+}
+
+/// Pixels of a model are those of a picture whose size nobody has said.
+TEST(LibraryExplain, SizeOfThePictureIsTold) {
+    const TemporaryFolder folder;
+    folder.write("scene.toml", kScene);
+    folder.write("tile.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
+    const auto told = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "explain");
+        arguments.insert(arguments.end(), {"--pixel", "9,8"});
+        return run_burin(folder.path(), arguments).out;
+    };
+    const std::string hint = "pixel 9,8 of a picture of 1920x1080 pixels; --size WxH asks for another one\n";
+    EXPECT_EQ(told({"tile.obj"}).find(hint + "pixel 9,8 of 1920x1080: "), 0u) << told({"tile.obj"});
+    EXPECT_EQ(told({"tile.obj", "--style", "comic"}).find(hint), 0u);
+    EXPECT_EQ(told({"tile.obj", "--size", "100x80"}).find("pixel 9,8 of 100x80: "), 0u);
+    EXPECT_EQ(told({"scene.toml"}).find("pixel 9,8 of 1920x1080: "), 0u);
+    Scene from = scene();
+    EXPECT_NE(from.explain(9, 8, kView, "json").find("\"size\": [\n    160,\n    120\n  ]"), std::string::npos);
 }
 
 TEST(LibraryExplain, NamesShadersAndWhatTheyRead) {
@@ -159,6 +183,24 @@ TEST(LibraryExplain, NamesShadersAndWhatTheyRead) {
     EXPECT_NE(text.find("\n    changed by shader wide\n    opacity times test half\n    where gap inf, C.y "),
               std::string::npos)
         << text;
+    struct Never final : LineTest {
+        void test(const LineSamples&, std::span<float> strength) const override {
+            std::fill(strength.begin(), strength.end(), 0.0f);
+        }
+    };
+    struct Gone final : LineShader {
+        void shade(const LineSamples&, LineInk& out) const override {
+            std::fill(out.width_px.begin(), out.width_px.end(), 0.0f);
+        }
+    };
+    from.add_line_test("never", std::make_shared<Never>());
+    from.add_line_shader("gone", std::make_shared<Gone>());
+    from.set_style(
+        "[[set]]\nname = \"a\"\nclasses = [\"silhouette\"]\nstyle = \"ink\"\ntest = \"never\"\n[style.ink]\n");
+    EXPECT_NE(from.explain(30, 60, kView).find("test never makes its opacity 0\n"), std::string::npos);
+    from.set_style(
+        "[[set]]\nname = \"a\"\nclasses = [\"silhouette\"]\nstyle = \"ink\"\n[style.ink]\nshader = \"gone\"\n");
+    EXPECT_NE(from.explain(30, 60, kView).find("shader gone makes its width 0\n"), std::string::npos);
 }
 
 TEST(LibraryExplain, ArgumentsAreChecked) {
