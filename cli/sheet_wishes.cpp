@@ -31,11 +31,11 @@ void set_parameter(StyleSheet& sheet, const std::string& name, const std::string
         throw UsageError(option + ": the parameter '" + name + "' of the style sheet " + sheet.name + " is " +
                          (value.kind == StyleValue::Kind::color ? "no colour" : "a colour, not a number"));
     }
-    // A range is in the unit of the parameter, and the option in pixels.
-    SheetParameter in_its_unit = parameter;
-    in_its_unit.value.number = value.number / in_pixels(1, parameter.value.unit, context);
-    if (const auto fault = fault_of_parameter(in_its_unit)) throw UsageError(option + ": " + *fault);
     parameter.value = value;
+    parameter.value.source.where.file = option;
+    parameter.value.source.context = "the parameter " + name;
+    parameter.value.source.is_from_command_line = true;
+    if (const auto fault = fault_of_parameter(parameter, &context)) throw UsageError(option + ": " + *fault);
 }
 
 /// What of a sheet draws hidden lines, and what would have it draw all of them.

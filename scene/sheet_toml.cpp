@@ -24,9 +24,26 @@ namespace {
 
 using Rule = SheetValueRule;
 
+/// Of parameters that have a range, in which it is.
+using RangeUnits = std::map<std::string, SheetUnit, std::less<>>;
+
+RangeUnits range_units_of(const toml::table& root) {
+    RangeUnits units;
+    const toml::table* const parameters = root["parameters"].as_table();
+    if (parameters == nullptr) return units;
+    for (const auto& [name, node] : *parameters) {
+        const toml::node* const value = node.is_table() ? node.as_table()->get("value") : nullptr;
+        if (value != nullptr) units.emplace(name.str(), unit_of(*value));
+    }
+    return units;
+}
+
 class SheetReader {
   public:
-    SheetReader(TomlReader root, const std::string& name) : root_(std::move(root)) { sheet_.name = name; }
+    SheetReader(TomlReader root, const std::string& name, RangeUnits range_units)
+        : root_(std::move(root)), range_units_(std::move(range_units)) {
+        sheet_.name = name;
+    }
 
     StyleSheet read() {
         if (const auto version = root_.integer("style_version", 0, 1000000); version && *version != 1)
@@ -83,6 +100,9 @@ class SheetReader {
                 if (parameter.least && parameter.most && *parameter.least > *parameter.most)
                     table.fail("max", "must not be less than min");
                 parameter.value = values_.value(table, "value", rule);
+                const auto of_text = range_units_.find(name);
+                const bool is_as_written = of_text == range_units_.end() || TomlReader::is_override(table.position());
+                parameter.range_unit = is_as_written ? parameter.value.unit : of_text->second;
                 table.finish();
             } else {
                 parameter.value = values_.value(t, name, rule);
@@ -141,6 +161,7 @@ class SheetReader {
     }
 
     TomlReader root_;
+    RangeUnits range_units_;
     SheetValueReader values_;
     ExpressionSymbols symbols_ = sheet_variables();
     std::map<std::string, const char*> names_;  ///< and what has them
@@ -151,8 +172,9 @@ class SheetReader {
 
 StyleSheet read_sheet_text(std::string_view text, const std::string& name, const std::vector<Override>& overrides) {
     toml::table root = parse_checked_toml(text, name, "a style sheet", kMaxSheetBytes, kMaxSheetValues);
+    RangeUnits range_units = range_units_of(root);
     for (const Override& o : overrides) apply_sheet_override(root, o);
-    return SheetReader(TomlReader(root, "", name, kSheetPage), name).read();
+    return SheetReader(TomlReader(root, "", name, kSheetPage), name, std::move(range_units)).read();
 }
 
 StyleSheet read_sheet_file(const std::string& path, const std::vector<Override>& overrides) {

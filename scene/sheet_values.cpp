@@ -70,6 +70,12 @@ bool is_sheet_word(std::string_view name) {
     return !name.empty() && name.find_first_not_of(kKnown) == std::string_view::npos;
 }
 
+SheetUnit unit_of(const toml::node& value) {
+    const auto* const text = value.as_string();
+    const auto length = text != nullptr ? number_with_unit(text->get()) : std::nullopt;
+    return length ? length->unit : SheetUnit::px;
+}
+
 SheetText SheetValueReader::text_at(const Place& place) {
     SheetText result;
     result.where = place.table.position_of(place.node);

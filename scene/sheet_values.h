@@ -29,6 +29,9 @@ constexpr std::string_view kSheetPage = "docs/shading/sheets.md";
 /// Whether a name has letters, digits, _ and - only, and at least one of them.
 bool is_sheet_word(std::string_view name);
 
+/// The unit of a constant; `px` of what has none.
+SheetUnit unit_of(const toml::node& value);
+
 /// Reads the values of a sheet, and counts its expressions. All throw InputError with line and column, or UsageError
 /// for a value of the command line.
 class SheetValueReader {

@@ -1,6 +1,7 @@
 #include "shading/sheet/sheet_symbols.h"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <utility>
@@ -55,6 +56,7 @@ ExpressionSymbols symbols_of(const StyleSheet& sheet, const SheetContext& contex
         symbols.parameters.push_back({std::string(row.name), row.type, {frame_value(row.variable, context), 0, 0}});
     }
     for (const SheetParameter& parameter : sheet.parameters) {
+        if (const auto fault = fault_of_parameter(parameter, &context)) parameter.value.source.fail(*fault);
         ExpressionParameter made{parameter.name, ValueType::number, {}};
         if (parameter.value.kind == StyleValue::Kind::color) {
             made.type = ValueType::color;
@@ -91,17 +93,26 @@ const char* suffix_of(SheetUnit unit) {
     return kSuffixes[static_cast<std::size_t>(unit)];
 }
 
-std::optional<std::string> fault_of_parameter(const SheetParameter& parameter) {
+std::optional<std::string> fault_of_parameter(const SheetParameter& parameter, const SheetContext* context) {
     if (parameter.value.kind == StyleValue::Kind::color) {
         if (parameter.least || parameter.most) return "a colour has no min and max";
         return std::nullopt;
     }
-    const double value = parameter.value.number;
-    const auto shown = [unit = suffix_of(parameter.value.unit)](double number) { return text_of(number) + unit; };
-    if (parameter.least && value < *parameter.least)
-        return "must be at least " + shown(*parameter.least) + ", got " + shown(value);
-    if (parameter.most && value > *parameter.most)
-        return "must be at most " + shown(*parameter.most) + ", got " + shown(value);
+    double value = parameter.value.number;
+    const auto shown = [unit = suffix_of(parameter.range_unit)](double number) { return text_of(number) + unit; };
+    std::string as_written;
+    double rounding = 0;
+    if (parameter.value.unit != parameter.range_unit) {
+        if (context == nullptr) return std::nullopt;
+        const std::string unit = parameter.value.unit == SheetUnit::px ? "px" : suffix_of(parameter.value.unit);
+        as_written = " (" + text_of(value) + unit + ")";
+        value = in_pixels(value, parameter.value.unit, *context) / in_pixels(1, parameter.range_unit, *context);
+        rounding = 1e-9 * std::abs(value);
+    }
+    if (parameter.least && value < *parameter.least - rounding)
+        return "must be at least " + shown(*parameter.least) + ", got " + shown(value) + as_written;
+    if (parameter.most && value > *parameter.most + rounding)
+        return "must be at most " + shown(*parameter.most) + ", got " + shown(value) + as_written;
     return std::nullopt;
 }
 

@@ -24,8 +24,9 @@ double in_pixels(double number, SheetUnit unit, const SheetContext& context);
 /// "mm", "%"; empty: pixels.
 const char* suffix_of(SheetUnit unit);
 
-/// Why a parameter cannot have its value: it is out of its range.
-std::optional<std::string> fault_of_parameter(const SheetParameter& parameter);
+/// Why a parameter cannot have its value: it is out of its range. `context`: says how large units are; without it, a
+/// value that has another unit than the range is not compared.
+std::optional<std::string> fault_of_parameter(const SheetParameter& parameter, const SheetContext* context = nullptr);
 
 /// A number as an expression has it; read as single precision, it is the nearest one.
 std::string text_of(double number);

@@ -139,6 +139,7 @@ struct SheetParameter {
     std::string name;
     StyleValue value;  ///< a number or a colour
     std::optional<double> least, most;
+    SheetUnit range_unit = SheetUnit::px;  ///< of `least` and `most`, whatever unit a value of the command line has
     SourcePosition where;
 };
 

@@ -227,6 +227,19 @@ TEST(SheetErrors, OfTheCommandLine) {
     EXPECT_EQ(error_of(sheet, {{"style.set.a.enabled", "false"}}), "");
     EXPECT_EQ(error_of(sheet, {{"style.crease_angle", "30"}}), "");
     EXPECT_EQ(error_of(sheet, {{"style.w", "5"}}).find("usage: --set style.w=5: "), 0u);
+    // The range stays in the unit that the sheet has: 1 mm is 96 / 25.4 px there.
+    const std::string range = "must be at most 4, got 7.55905512 (2mm)";
+    for (const char* key : {"style.w", "style.parameters.w.value"})
+        EXPECT_NE(error_of(sheet, {{key, "2mm"}}).find(range), std::string::npos) << error_of(sheet, {{key, "2mm"}});
+    EXPECT_EQ(error_of(sheet, {{"style.w", "1mm"}}), "");
+    EXPECT_EQ(error_of(sheet, {{"style.w", "3pt"}}), "");  // exactly 4 px
+    EXPECT_NE(error_of(sheet, {{"style.w", "3.001pt"}}), "");
+    EXPECT_EQ(error_of(sheet, {{"style.parameters.w", "{ value = \"2mm\", max = 4 }"}}), "");
+    const std::string in_mm =
+        "[parameters]\nw = { value = \"2mm\", min = 1, max = 4 }\n" + text.substr(text.find("[[set]]"));
+    EXPECT_EQ(error_of(in_mm, {{"style.w", "15"}}), "");
+    EXPECT_NE(error_of(in_mm, {{"style.w", "3"}}).find("must be at least 1mm, got 0.79375mm (3px)"), std::string::npos);
+    EXPECT_NE(error_of(in_mm, {{"style.w", "16"}}).find("must be at most 4mm"), std::string::npos);
     const std::string inked = "[parameters]\nred = \"#ff0000\"\nw = 2\n" + text.substr(text.find("[[set]]"));
     EXPECT_NE(error_of(inked, {{"style.red", "5"}}).find("the parameter is a colour, not a number"), std::string::npos);
     EXPECT_NE(error_of(inked, {{"style.w", "#00ff00"}}).find("the parameter is a number, not a colour"),
