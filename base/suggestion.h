@@ -10,7 +10,8 @@
 
 namespace burin {
 
-/// How many characters must be put in, taken out or exchanged to make one word of another (Levenshtein 1966).
+/// How many characters must be put in, taken out or exchanged, or change places with their neighbours, to make one word
+/// of another (Damerau 1964; none is touched twice).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// What somebody may have meant who wrote a word: the known one that is nearest, if it is no farther than `farthest`,
