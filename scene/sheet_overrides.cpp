@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "mesh/text_scan.h"
@@ -32,6 +34,36 @@ std::string listed_keys(const std::vector<std::string>& names) {
     return list.empty() ? "none" : list;
 }
 
+std::vector<std::string> names_of_sets(const toml::table& root) {
+    std::vector<std::string> names;
+    const toml::array* const sets = root["set"].as_array();
+    for (std::size_t i = 0; sets != nullptr && i < sets->size(); ++i) {
+        const toml::table* const set = sets->get(i)->as_table();
+        if (const auto name = set != nullptr ? (*set)["name"].value<std::string>() : std::nullopt)
+            names.push_back(*name);
+    }
+    return names;
+}
+
+[[noreturn]] void fail_unknown(const Override& o, const char* kind, std::string_view name,
+                               const std::vector<std::string>& known) {
+    fail(o, "the sheet has no " + std::string(kind) + " '" + printable(name) + "'" + suggestion_of(name, known) +
+                "; it has " + listed_keys(known));
+}
+
+/// "let.NAME" changes what the sheet has.
+void check_name(const toml::table& root, const Override& o, std::string_view key) {
+    static constexpr std::pair<std::string_view, const char*> kTables[] = {
+        {"parameters", "parameter"}, {"let", "let"}, {"ramp", "ramp"}, {"groups", "group"}};
+    const std::size_t dot = key.find('.');
+    const std::string_view name = key.substr(dot + 1, key.substr(dot + 1).find('.'));
+    for (const auto& [table, kind] : kTables) {
+        if (key.substr(0, dot) != table) continue;
+        const std::vector<std::string> known = names_in(root, table);
+        if (!is_word_of(known, name)) fail_unknown(o, kind, name, known);
+    }
+}
+
 /// "set.NAME.KEY" with the set's number in place of its name; nothing where no set has the name.
 std::string path_in_sets(const toml::table& root, std::string_view rest) {
     const std::size_t dot = rest.find('.');
@@ -55,21 +87,21 @@ std::string path_of(const toml::table& root, const Override& o, std::string_view
             return "parameters." + std::string(first) + (parameter->is_table() ? ".value" : "");
         }
         if (std::find(std::begin(kTopKeys), std::end(kTopKeys), first) != std::end(kTopKeys)) return std::string(first);
-        const std::vector<std::string> parameters = names_in(root, "parameters");
-        fail(o, "the sheet has no parameter '" + printable(first) + "'" + suggestion_of(first, parameters) +
-                    "; it has " + listed_keys(parameters));
+        fail_unknown(o, "parameter", first, names_in(root, "parameters"));
     }
     const toml::table* const styles = root["style"].as_table();
     if (styles != nullptr && styles->contains(first)) return "style." + std::string(key);
     if (first == "set") {
-        const std::string path = path_in_sets(root, key.substr(dot + 1));
-        if (path.empty()) fail(o, "the sheet has no such set");
+        const std::string_view rest = key.substr(dot + 1);
+        const std::string path = path_in_sets(root, rest);
+        if (path.empty()) fail_unknown(o, "set", rest.substr(0, rest.find('.')), names_of_sets(root));
         return path;
     }
-    if (std::find(std::begin(kTopKeys), std::end(kTopKeys), first) != std::end(kTopKeys)) return std::string(key);
-    const std::vector<std::string> names = names_in(root, "style");
-    fail(o, "the sheet has no style '" + printable(first) + "'" + suggestion_of(first, names) + "; it has " +
-                listed_keys(names));
+    if (std::find(std::begin(kTopKeys), std::end(kTopKeys), first) != std::end(kTopKeys)) {
+        check_name(root, o, key);
+        return std::string(key);
+    }
+    fail_unknown(o, "style", first, names_in(root, "style"));
 }
 
 enum class ParameterKind { none, number, color };

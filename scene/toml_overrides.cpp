@@ -81,6 +81,26 @@ std::optional<std::string> numbers_in_toml(std::string_view key, std::string_vie
     return is_list || count > 1 ? "[" + result + "]" : result;
 }
 
+/// Names as they are typed, "a,b" and "[a, b]", as a list in TOML. Nothing for one name, and for keys that have no list
+/// of names.
+std::optional<std::string> names_in_toml(std::string_view key, std::string_view text) {
+    key = key.substr(key.rfind('.') + 1);
+    if (key != "classes" && key != "objects" && key != "materials") return std::nullopt;
+    const bool is_list = text.starts_with('[') && text.ends_with(']');
+    if (is_list) text = text.substr(1, text.size() - 2);
+    if (!is_list && text.find(',') == std::string_view::npos) return std::nullopt;
+    std::string result;
+    for (std::size_t begin = 0, end = 0; end != std::string_view::npos; begin = end + 1) {
+        end = text.find(',', begin);
+        std::string_view part = text.substr(begin, end - begin);
+        while (part.starts_with(' ')) part.remove_prefix(1);
+        while (part.ends_with(' ')) part.remove_suffix(1);
+        if (part.empty()) return std::nullopt;
+        result += (result.empty() ? "" : ", ") + quoted(std::string(part));
+    }
+    return "[" + result + "]";
+}
+
 bool is_number(std::string_view part) { return part.find_first_not_of("0123456789") == std::string_view::npos; }
 
 /// The key has a number for an element, `part` of it, but what stands before it is no list.
@@ -96,6 +116,9 @@ toml::table override_value(const Override& o) {
     if (auto value = parse_value(o, o.value)) return *std::move(value);
     if (const auto numbers = numbers_in_toml(o.key, o.value)) {
         if (auto value = parse_value(o, *numbers)) return *std::move(value);
+    }
+    if (const auto names = names_in_toml(o.key, o.value)) {
+        if (auto value = parse_value(o, *names)) return *std::move(value);
     }
     if (auto value = parse_value(o, quoted(o.value))) return *std::move(value);  // typed without quotes
     fail_override(o, "the value is not UTF-8");
