@@ -46,6 +46,35 @@ class StoppableText : public std::streambuf {
     std::string_view text_;
 };
 
+std::string_view line_of(std::string_view text, std::size_t number) {
+    for (std::size_t line = 1; line < number; ++line) {
+        const std::size_t end = text.find('\n');
+        if (end == std::string_view::npos) return {};
+        text.remove_prefix(end + 1);
+    }
+    return text.substr(0, text.find('\n'));
+}
+
+/// What to do about common mistakes in TOML itself, whose messages name the consequence: "; ...", or nothing.
+std::string hint_for(std::string_view line, std::string_view message) {
+    const auto has = [&](std::string_view words) { return message.find(words) != std::string_view::npos; };
+    const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\r'; };
+    if (has("string") && (has("control characters") || has("end-of-file")) &&
+        std::none_of(line.begin(), line.end(), is_control))
+        return "; is the closing quote missing?";
+    for (const std::string_view quote : {"\xE2\x80\x9C", "\xE2\x80\x9D", "\xE2\x80\x9E", "\xE2\x80\x98", "\xE2\x80\x99",
+                                         "\xE2\x80\x9A", "\xC2\xAB", "\xC2\xBB"}) {
+        if (line.find(quote) != std::string_view::npos) return "; quotes are written \" here";
+    }
+    if (!has("redefine")) return {};
+    for (const std::string_view list : {"set", "object", "camera", "material", "light"}) {
+        const std::string once = "[" + std::string(list) + "]";
+        if (line.starts_with(once) || line.starts_with("[" + once + "]"))
+            return "; each of several is written [" + once + "]";
+    }
+    return {};
+}
+
 }  // namespace
 
 toml::table parse_toml(std::string_view text, const std::string& path) {
@@ -79,7 +108,7 @@ toml::table parse_checked_toml(std::string_view text, const std::string& path, c
         const toml::source_position at = error.source().begin;
         std::string message(error.description());
         std::replace(message.begin(), message.end(), '\n', ' ');
-        throw InputError({path, at.line, at.column}, message);
+        throw InputError({path, at.line, at.column}, message + hint_for(line_of(text, at.line), message));
     }
 }
 

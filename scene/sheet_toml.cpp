@@ -46,6 +46,11 @@ class SheetReader {
     }
 
     StyleSheet read() {
+        // A table that is not known would be missed below, where it is needed.
+        root_.set_top_keys(kSheetKeys);
+        for (const std::string_view key : kSheetKeys) root_.node(key);
+        for (const std::string_view key : kSheetTables) root_.node(key);
+        root_.finish();
         if (const auto version = root_.integer("style_version", 0, 1000000); version && *version != 1)
             root_.fail("style_version", "is " + std::to_string(*version) + "; this version reads 1");
         read_what_is_found();
@@ -58,7 +63,6 @@ class SheetReader {
         if (auto t = root_.table("ramp")) read_ramps(*t);
         if (auto t = root_.table("groups")) read_groups(*t);
         sheet_.sets = read_sets(root_, sheet_.styles, values_);
-        root_.finish();
         return std::move(sheet_);
     }
 
@@ -78,11 +82,23 @@ class SheetReader {
 
     /// Checks a name that expressions use. `kind`: "a parameter".
     void take_name(const TomlReader& table, const std::string& name, const char* kind, std::size_t count) {
-        if (const auto fault = fault_of_name(name, symbols_)) table.fail(name, *fault + "; choose another name");
+        if (const auto fault = fault_of_name(name, symbols_))
+            table.fail(name, *fault + "; choose another name" + table.hint_for_top_key(name));
         const auto [other, is_new] = names_.emplace(name, kind);
         if (!is_new) table.fail(name, std::string(other->second) + " has this name, too; rename one");
         if (count > kMostSheetNames)
             table.fail(name, "there are more than " + std::to_string(kMostSheetNames) + " of them");
+    }
+
+    static void read_range(TomlReader& table, SheetParameter& parameter) {
+        const std::string unit = parameter.range_unit == SheetUnit::px ? "px" : suffix_of(parameter.range_unit);
+        for (const char* key : {"min", "max"}) {
+            if (table.is_text(key)) table.fail(key, "must be a number: it is in the unit of value, " + unit);
+        }
+        parameter.least = table.number("min", {-1e30, 1e30});
+        parameter.most = table.number("max", {-1e30, 1e30});
+        if (parameter.least && parameter.most && *parameter.least > *parameter.most)
+            table.fail("max", "must not be less than min");
     }
 
     void read_parameters(TomlReader& t) {
@@ -95,14 +111,11 @@ class SheetReader {
             if (t.is_table(name)) {
                 TomlReader table = *t.table(name);
                 if (!table.has("value")) table.fail("needs a value");
-                parameter.least = table.number("min", {-1e30, 1e30});
-                parameter.most = table.number("max", {-1e30, 1e30});
-                if (parameter.least && parameter.most && *parameter.least > *parameter.most)
-                    table.fail("max", "must not be less than min");
                 parameter.value = values_.value(table, "value", rule);
                 const auto of_text = range_units_.find(name);
                 const bool is_as_written = of_text == range_units_.end() || TomlReader::is_override(table.position());
                 parameter.range_unit = is_as_written ? parameter.value.unit : of_text->second;
+                read_range(table, parameter);
                 table.finish();
             } else {
                 parameter.value = values_.value(t, name, rule);

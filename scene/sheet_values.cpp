@@ -9,6 +9,7 @@
 #include "mesh/text_scan.h"
 #include "scene/color.h"
 #include "scene/number_text.h"
+#include "shading/expression/error.h"
 
 namespace burin {
 namespace {
@@ -43,6 +44,18 @@ std::optional<NumberWithUnit> number_with_unit(std::string_view text) {
         if (rest == name) return NumberWithUnit{number, unit};
     }
     return std::nullopt;
+}
+
+/// What stands behind the number of a text in place of a unit: letters; else nothing.
+std::string_view unknown_unit_in(std::string_view text) {
+    double number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [behind, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc()) return {};
+    std::string_view rest(behind, static_cast<std::size_t>(end - behind));
+    while (rest.starts_with(' ')) rest.remove_prefix(1);
+    constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+    return rest.find_first_not_of(kLetters) == std::string_view::npos ? rest : std::string_view();
 }
 
 std::string wanted(const SheetValueRule& rule) {
@@ -124,6 +137,9 @@ StyleValue SheetValueReader::constant(const Place& place, const SheetValueRule& 
             value = StyleValue::of_color({color->r, color->g, color->b});
         } else {
             const auto length = number_with_unit(text->get());
+            const std::string_view unit = length || !may_be_number ? std::string_view() : unknown_unit_in(text->get());
+            if (!unit.empty() && rule.of == Of::number) fail("takes no unit");
+            if (!unit.empty()) fail("unknown unit " + in_quotes(unit) + ": give px, mm, pt, % or world");
             if (!length || !may_be_number) fail(wanted(rule));
             if (rule.of == Of::number && length->unit != SheetUnit::px) fail("takes no unit");
             value.number = length->number;

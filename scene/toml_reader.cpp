@@ -160,10 +160,9 @@ std::optional<TomlReader> TomlReader::table(std::string_view key) {
     if (node == nullptr) return std::nullopt;
     const toml::table* const table = node->as_table();
     if (table == nullptr) fail(key, "must be a table");
-    const std::string_view within =
+    const std::string_view outer =
         context_.empty() ? std::string_view() : std::string_view(context_).substr(1, context_.size() - 2);
-    return TomlReader(*table, "[" + std::string(within) + (within.empty() ? "" : ".") + std::string(key) + "]", file_,
-                      page_);
+    return this->within(*table, "[" + std::string(outer) + (outer.empty() ? "" : ".") + std::string(key) + "]");
 }
 
 std::vector<TomlReader> TomlReader::tables(std::string_view key) {
@@ -172,7 +171,7 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) {
     if (node == nullptr) return result;
     const std::string name = "[[" + std::string(key) + "]]";
     if (const toml::table* const single = node->as_table()) {
-        result.emplace_back(*single, name, file_, page_);
+        result.push_back(within(*single, name));
         return result;
     }
     const toml::array* const array = node->as_array();
@@ -180,7 +179,7 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) {
     for (const toml::node& element : *array) {
         throw_if_interrupted();
         if (!element.is_table()) fail(key, "must be a list of tables, " + name);
-        result.emplace_back(*element.as_table(), name, file_, page_);
+        result.push_back(within(*element.as_table(), name));
     }
     return result;
 }
@@ -202,11 +201,18 @@ std::optional<std::string> TomlReader::misspelled(std::string_view key) const {
     return std::nullopt;
 }
 
+std::string TomlReader::hint_for_top_key(std::string_view key) const {
+    const bool is_one = std::find(top_keys_.begin(), top_keys_.end(), key) != top_keys_.end();
+    return is_one && !context_.empty() ? "; as a key of the whole file it belongs above the first table" : "";
+}
+
 void TomlReader::finish() const {
     for (const auto& [key, node] : *table_) {
         if (known_.contains(key.str())) continue;
         std::string message = "unknown key '" + printable(key.str()) + "'";
-        if (const auto closest = closest_word(key.str(), {known_.begin(), known_.end()})) {
+        if (const std::string hint = hint_for_top_key(key.str()); !hint.empty()) {
+            message += hint;
+        } else if (const auto closest = closest_word(key.str(), {known_.begin(), known_.end()})) {
             message += "; did you mean '" + *closest + "'?";
         } else {
             message += "; " + std::string(page_) + " lists the known ones";

@@ -19,8 +19,10 @@
 #include <initializer_list>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -37,6 +39,11 @@ class TomlReader {
     TomlReader(const toml::table& table, std::string context, std::string file,
                std::string_view page = "docs/scene-format.md")
         : table_(&table), context_(std::move(context)), file_(std::move(file)), page_(page) {}
+
+    /// Keys that stand above the first table: messages about one of them within a table say so.
+    void set_top_keys(std::span<const std::string_view> keys) { top_keys_ = keys; }
+    /// What messages about a top key within a table say; nothing for other keys.
+    std::string hint_for_top_key(std::string_view key) const;
 
     struct Range {
         double low, high;
@@ -102,6 +109,11 @@ class TomlReader {
     static constexpr std::string_view kOption = "--set ", kCall = "burin_set() ";
 
   private:
+    TomlReader within(const toml::table& table, std::string context) const {
+        TomlReader reader(table, std::move(context), file_, page_);
+        reader.top_keys_ = top_keys_;
+        return reader;
+    }
     const toml::node* find(std::string_view key);
     double checked_number(const toml::node& node, std::string_view key) const;
 
@@ -109,6 +121,7 @@ class TomlReader {
     std::string context_;
     std::string file_;
     std::string_view page_;
+    std::span<const std::string_view> top_keys_;
     std::set<std::string, std::less<>> known_;
 };
 
