@@ -66,7 +66,7 @@ class Finder {
             }
         }
         stats_.lines_s += watch_.lap();
-        if (shaded_) note_not_numbers(*shaded_, stats_.notes);
+        if (shaded_) add_notes_on(*shaded_, stats_.notes);
     }
 
   private:

@@ -32,7 +32,8 @@ std::shared_ptr<const ShadowCasters> shadow_casters_of(const Frame& frame) {
                                            which_cast_shadows(frame.scene->materials));
 }
 
-void note_not_numbers(const ShadedSurfaces& surfaces, std::vector<std::string>& notes) {
+void add_notes_on(const ShadedSurfaces& surfaces, std::vector<std::string>& notes) {
+    notes.insert(notes.end(), surfaces.look().notes.begin(), surfaces.look().notes.end());
     const std::uint64_t count = surfaces.not_numbers();
     if (count == 0) return;
     notes.push_back("[surfaces]: a value is not a number at " + std::to_string(count) +

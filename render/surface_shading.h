@@ -20,7 +20,8 @@ std::vector<const MeshCurvature*> curvatures_of(const Frame& frame, SceneCurvatu
 /// What casts shadows in the light of a frame's key light.
 std::shared_ptr<const ShadowCasters> shadow_casters_of(const Frame& frame);
 
-/// Says where expressions gave no numbers. `notes`: gets what users should know.
-void note_not_numbers(const ShadedSurfaces& surfaces, std::vector<std::string>& notes);
+/// What users should know of how surfaces are shaded: at how many places expressions gave no numbers, and what in them
+/// is probably a mistake.
+void add_notes_on(const ShadedSurfaces& surfaces, std::vector<std::string>& notes);
 
 }  // namespace burin

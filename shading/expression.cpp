@@ -31,6 +31,7 @@ void ExpressionCompiler::add(const TypedValue& value, const ExpressionTarget& ta
     graph_.count_steps(graph_.nodes().size() / 4);
     const ExpressionProgram alone(graph_, inputs_, {output});
     outputs_.push_back(output);
+    if (target.is_color) builder_.remark_bright(value);
 }
 
 ExpressionProgram ExpressionCompiler::program() const { return {graph_, inputs_, outputs_}; }

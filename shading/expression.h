@@ -37,6 +37,7 @@ class ExpressionCompiler {
     void add_ramp(const Ramp& ramp, std::string_view over, const ExpressionTarget& target);
     /// The program that computes all results in the order in which they were added.
     ExpressionProgram program() const;
+    const ExpressionRemarks& remarks() const { return builder_.remarks(); }
     /// How much work it has been; the time that it takes is about proportional to that.
     std::size_t steps() const { return graph_.steps(); }
 

@@ -62,7 +62,7 @@ RenderStats render_reference(const Frame& frame, const RunOptions& options, Film
         if (options.progress != nullptr) options.progress->advance();
     });
 
-    if (shaded) note_not_numbers(*shaded, stats.notes);
+    if (shaded) add_notes_on(*shaded, stats.notes);
     share_out(watch.lap(), times, stats);
     stats.triangles = frame.surfaces.triangle_count();
     return stats;

@@ -42,9 +42,10 @@ void ExpressionBuilder::count_steps(std::size_t steps) {
 TypedValue ExpressionBuilder::build(std::string_view text, ValueRate highest) {
     count_steps(text.size());
     const SyntaxTree tree = parse_expression(text);
-    const auto outer = std::pair(text_, highest_);
+    const auto outer = std::tuple(text_, highest_, tree_);
     text_ = text;
     highest_ = highest;
+    tree_ = &tree;
     std::vector<TypedValue> built;
     built.reserve(tree.nodes.size());
     std::vector<TypedValue> operands;
@@ -59,7 +60,7 @@ TypedValue ExpressionBuilder::build(std::string_view text, ValueRate highest) {
     }
     if (built.back().is_text)
         fail(built.back().begin, "a text is no value: compare it with a name, as in class == \"crease\"");
-    std::tie(text_, highest_) = outer;
+    std::tie(text_, highest_, tree_) = outer;
     return built.back();
 }
 
@@ -226,8 +227,33 @@ TypedValue ExpressionBuilder::call(const SyntaxNode& node, std::span<const Typed
     return function->build(*this, {token.offset, arguments});
 }
 
+void ExpressionBuilder::remark_bright(const TypedValue& color) {
+    std::vector<std::array<ExpressionGraph::Index, 3>> ways{color.parts};
+    constexpr std::size_t kMostWays = 64;
+    for (std::size_t i = 0; i < ways.size() && i < kMostWays; ++i) {
+        const auto parts = ways[i];
+        const auto all_of = [&](const auto& is) { return is(parts[0]) && is(parts[1]) && is(parts[2]); };
+        if (all_of([&](auto part) { return graph_.is_constant(part); })) {
+            const std::array<float, 3> value{graph_.constant_value(parts[0]), graph_.constant_value(parts[1]),
+                                             graph_.constant_value(parts[2])};
+            if (std::any_of(value.begin(), value.end(), [](float part) { return part > 1; })) remarks_.add(value);
+        } else if (all_of([&](auto part) {
+                       const GraphNode& node = graph_.nodes()[part];
+                       return node.kind == GraphNode::Kind::operation && node.operation == O::choose;
+                   })) {
+            for (const std::size_t way : {1, 2}) {
+                ways.push_back({graph_.nodes()[parts[0]].operands[way], graph_.nodes()[parts[1]].operands[way],
+                                graph_.nodes()[parts[2]].operands[way]});
+            }
+        }
+    }
+}
+
 TypedValue ExpressionBuilder::ramp(const Ramp& ramp, const TypedValue& x) {
     require_number(x, "where a ramp is looked at");
+    for (const RampStop& stop : ramp.stops) {
+        if (ramp.is_color && *std::max_element(stop.value.begin(), stop.value.end()) > 1) remarks_.add(stop.value);
+    }
     const TypedValue first = constant(ramp.stops.front().at), last = constant(ramp.stops.back().at);
     TypedValue place = x;
     if (ramp.outside != RampOutside::hold && ramp.stops.size() > 1) {

@@ -13,6 +13,7 @@
 
 #include "shading/expression/graph.h"
 #include "shading/expression/program.h"
+#include "shading/expression/remarks.h"
 #include "shading/expression/symbols.h"
 #include "shading/expression/syntax_tree.h"
 
@@ -38,6 +39,10 @@ class ExpressionBuilder {
 
     /// What has been built stays valid. `highest`: no variable may have a higher rate. Throws ExpressionError.
     TypedValue build(std::string_view text, ValueRate highest);
+
+    /// Looks at a result that is a colour: at itself if it is constant, or at those that are chosen from.
+    void remark_bright(const TypedValue& color);
+    const ExpressionRemarks& remarks() const { return remarks_; }
 
     // What functions are made of (function_table.cpp).
     using Operation = ExpressionOperation;
@@ -77,6 +82,8 @@ class ExpressionBuilder {
     template <typename IsIn>
     TypedValue one_of(const TypedValue& value, std::size_t comparisons, const IsIn& is_in);
     void require_rate(ValueRate rate, std::string_view name, std::size_t offset) const;
+    /// The comparison that an unknown word is probably a name in: `object == "box"`; nothing elsewhere.
+    std::string compared_with_name(const Token& token) const;
     [[noreturn]] void fail_unknown_name(const Token& token) const;
     [[noreturn]] void fail_unknown_function(const Token& token) const;
     std::uint32_t input_number(const ExpressionInput& input);
@@ -90,6 +97,8 @@ class ExpressionBuilder {
     std::size_t let_levels_ = 0;
     std::string_view text_;  ///< that is being built
     ValueRate highest_ = ValueRate::sample;
+    const SyntaxTree* tree_ = nullptr;  ///< of that text
+    ExpressionRemarks remarks_;
 };
 
 }  // namespace burin

@@ -3,6 +3,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/suggestion.h"
 #include "shading/expression/builder.h"
 #include "shading/expression/error.h"
 #include "shading/expression/function_table.h"
@@ -92,14 +93,14 @@ TypedValue ExpressionBuilder::let(const ExpressionLet& let, const Token& token) 
         if (let_levels_ == kMostLevels) fail(token.offset, "more than 64 lets are made of each other");
         built.progress = Progress::going_on;
         ++let_levels_;
-        const auto outer = std::pair(text_, highest_);
+        const auto outer = std::tuple(text_, highest_, tree_);
         std::optional<ExpressionError> fault;
         try {
             built.value = build(let.text, ValueRate::sample);
         } catch (const ExpressionError& error) {
             fault = error;
         }
-        std::tie(text_, highest_) = outer;
+        std::tie(text_, highest_, tree_) = outer;
         --let_levels_;
         built.progress = fault ? Progress::not_begun : Progress::done;
         if (fault)
@@ -108,6 +109,28 @@ TypedValue ExpressionBuilder::let(const ExpressionLet& let, const Token& token) 
     }
     require_rate(built.value.rate, let.name, token.offset);
     return built.value;
+}
+
+std::string ExpressionBuilder::compared_with_name(const Token& token) const {
+    const std::vector<SyntaxNode>& nodes = tree_->nodes;
+    for (const SyntaxNode& comparison : nodes) {
+        const bool is_equality = comparison.token.words == "==" || comparison.token.words == "!=";
+        if (comparison.kind != SyntaxKind::binary || !is_equality) continue;
+        for (std::size_t k = 0; k < 2; ++k) {
+            const SyntaxNode& operand = nodes[tree_->operands[comparison.first + k]];
+            const SyntaxNode& other = nodes[tree_->operands[comparison.first + 1 - k]];
+            if (operand.kind != SyntaxKind::name || operand.token.offset != token.offset) continue;
+            if (other.kind != SyntaxKind::name) return {};
+            const ExpressionVariable* const variable = find_named(symbols_.variables, other.token.words);
+            if (variable == nullptr || variable->names == nullptr) return {};
+            // A word that is nearly such a variable is probably one.
+            for (const ExpressionVariable& v : symbols_.variables) {
+                if (v.names != nullptr && edit_distance(v.name, token.words) == 1) return {};
+            }
+            return variable->name + " " + std::string(comparison.token.words) + " \"" + std::string(token.words) + "\"";
+        }
+    }
+    return {};
 }
 
 void ExpressionBuilder::fail_unknown_name(const Token& token) const {
@@ -124,7 +147,11 @@ void ExpressionBuilder::fail_unknown_name(const Token& token) const {
     for (const std::string_view unit : {"px", "mm", "pt", "world"}) {
         if (token.words == unit) fail(token.offset, "a unit stands right behind a number, as 2" + std::string(unit));
     }
-    fail(token.offset, "unknown variable " + shown + suggestion_of(token.words, all_names(symbols_)));
+    const std::string comparison = compared_with_name(token);
+    fail(token.offset, "unknown variable " + shown +
+                           (comparison.empty() ? suggestion_of(token.words, all_names(symbols_))
+                                               : "; names stand in double quotes: " + comparison) +
+                           symbols_.hint_for_unknown);
 }
 
 void ExpressionBuilder::fail_unknown_function(const Token& token) const {
@@ -180,7 +207,14 @@ TypedValue ExpressionBuilder::is_name(const TypedValue& value, const TypedValue&
         fail(pattern.begin,
              "unknown " + list.kind + " " + in_quotes(pattern.text) + suggestion_of(pattern.text, list.names));
     }
-    return one_of(value, 1, [&](const std::string& name) { return matches_glob(pattern.text, name); });
+    bool fits_any = list.is_complete;
+    const TypedValue result = one_of(value, 1, [&](const std::string& name) {
+        const bool fits = matches_glob(pattern.text, name);
+        fits_any = fits_any || fits;
+        return fits;
+    });
+    if (!fits_any) remarks_.add({list.kind, std::string(pattern.text)});
+    return result;
 }
 
 TypedValue ExpressionBuilder::membership(const Token& group, const TypedValue& value) {

@@ -60,6 +60,7 @@ struct ExpressionSymbols {
     std::vector<ExpressionLet> lets;
     std::vector<ExpressionGroup> groups;
     std::vector<ExpressionRamp> ramps;
+    std::string hint_for_unknown;    ///< what the message on an unknown variable ends with
     std::vector<std::string> later;  ///< names of variables and classes that later versions know
     double px_per_mm = 96 / 25.4;
 };

@@ -336,7 +336,7 @@ InkedLines ink_lines(const FoundLines& found, const CompiledSheet& sheet, int th
         inked.sets.push_back(set.name);
     }
     add_ink_along(parts, boundaries, inked);
-    for (std::string& note : sheet.notes_on_names()) notes.push_back(std::move(note));
+    notes.insert(notes.end(), sheet.notes_on_names().begin(), sheet.notes_on_names().end());
     for (std::string& note : sheet.notes_on_wobble()) notes.push_back(std::move(note));
     add_notes_on_numbers(sheet, chunks, parts, notes);
     return inked;

@@ -36,6 +36,7 @@ class ValueCompiler {
     void add_color(const StyleValue& value) { add(value, {true, 0, kMostColor, highest_}); }
 
     std::size_t steps() const { return compiler_.steps(); }
+    const ExpressionRemarks& remarks() const { return compiler_.remarks(); }
 
     ExpressionProgram program(const std::string& style, const SourcePosition& where) const {
         try {
@@ -209,6 +210,8 @@ CompiledStyle compile_style(const SheetStyle& style, const ExpressionSymbols& sy
         chain.add(k < style.dash.size() ? style.dash[k] : StyleValue::of(1), kDash);
     result.chain = chain.program(style.name, style.where);
     steps_left -= std::min(steps_left, chain.steps());
+    result.remarks = ink.remarks();
+    result.remarks.add(chain.remarks());
 
     result.variables = variables_of(result.ink);
     result.variables |= variables_of(result.chain);

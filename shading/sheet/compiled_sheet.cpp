@@ -8,6 +8,7 @@
 #include "shading/expression/glob.h"
 #include "shading/line_shader.h"
 #include "shading/sheet/compile_style.h"
+#include "shading/sheet/sheet_notes.h"
 #include "shading/sheet/sheet_symbols.h"
 
 namespace burin {
@@ -59,6 +60,7 @@ CompiledSet compile_set(const LineSet& set, const ExpressionSymbols& symbols, co
             ExpressionCompiler compiler(symbols, steps_left);
             compiler.add(set.select->text, {.highest_rate = ValueRate::piece});
             result.select = compiler.program();
+            result.remarks = compiler.remarks();
             steps_left -= std::min(steps_left, compiler.steps());
         } catch (const ExpressionError& error) {
             set.select->fail(error.column(), error.what());
@@ -67,21 +69,6 @@ CompiledSet compile_set(const LineSet& set, const ExpressionSymbols& symbols, co
     }
     if (set.test) result.test = test_named(*set.test, context.shaders);
     return result;
-}
-
-/// Of sheets that come along with the program, groups may be empty: they are offers.
-std::vector<std::string> notes_on_empty_groups(const StyleSheet& sheet, const SheetContext& context) {
-    std::vector<std::string> notes;
-    if (sheet.file.empty()) return notes;
-    for (const ExpressionGroup& group : sheet.groups) {
-        const std::vector<std::string>& names = group.kind == "material" ? context.materials : context.objects;
-        const GlobList globs(group.patterns);
-        if (std::any_of(names.begin(), names.end(), [&](const std::string& name) { return globs.takes(name); }))
-            continue;
-        notes.push_back("group " + group.name + ": no " + group.kind +
-                        " of the scene is in it (burin info lists them)");
-    }
-    return notes;
 }
 
 /// Hidden lines have strokes to both sides, and all else that is done to visible ones only where a set takes some.
@@ -93,7 +80,6 @@ bool is_told_anyway(const std::array<int, 2>& qi) { return qi[0] <= 1 && (qi[1] 
 
 CompiledSheet::CompiledSheet(const StyleSheet& sheet, const SheetContext& context) {
     const ExpressionSymbols symbols = symbols_of(sheet, context);
-    notes_on_groups_ = notes_on_empty_groups(sheet, context);
     std::size_t steps_left = kMostSheetSteps;
     check_lets(sheet, symbols, steps_left);
     for (const LineSet& set : sheet.sets) sets_.push_back(compile_set(set, symbols, context, steps_left));
@@ -133,24 +119,7 @@ CompiledSheet::CompiledSheet(const StyleSheet& sheet, const SheetContext& contex
     needs_.surface.color = needs_.variables.has(Variable::Cv);
     needs_.sides = needs_.variables.has_tier(VariableTier::sides) || needs_.variables.has_tier(VariableTier::shadows);
     needs_.hidden_chains = needs_.hidden_chains || (needs_.chains && needs_.most_invisibility > 0);
-}
-
-std::vector<std::string> CompiledSheet::notes_on_names() const {
-    std::vector<std::string> notes = notes_on_groups_;
-    const auto has_none = [](const std::vector<bool>& taken) {
-        return std::find(taken.begin(), taken.end(), true) == taken.end();
-    };
-    for (const CompiledSet& set : sets_) {
-        if (!set.is_enabled) continue;
-        if (set.has_object_globs && has_none(set.objects)) {
-            notes.push_back("set " + set.name +
-                            ": no object fits its objects; parts of a file are called NAME/PART (burin info lists "
-                            "them)");
-        } else if (set.has_material_globs && has_none(set.materials)) {
-            notes.push_back("set " + set.name + ": no material fits its materials (burin info lists them)");
-        }
-    }
-    return notes;
+    notes_on_names_ = notes_on_sheet(sheet, sets_, styles_, context);
 }
 
 std::vector<std::string> CompiledSheet::notes_on_wobble() const {

@@ -11,6 +11,7 @@
 
 #include "lines/line_class.h"
 #include "shading/expression/program.h"
+#include "shading/expression/remarks.h"
 #include "shading/sheet/style_sheet.h"
 #include "shading/sheet/surface_needs.h"
 #include "shading/sheet/variables.h"
@@ -90,6 +91,7 @@ struct CompiledStyle {
     bool moves_lines() const { return has_offset || has_wobble; }
     VariableSet variables;                ///< of both programs and the shader, and what carrying out the style reads
     std::vector<std::string> attributes;  ///< that the ink reads
+    ExpressionRemarks remarks;            ///< on both programs
     bool needs_chains = false;
     bool needs_ends = false;  ///< what stops lines at their ends is read
     float most_reach_px = 0;  ///< how far from a line its ink may be: half its width, and what moves it
@@ -139,6 +141,7 @@ struct CompiledSet {
     bool also = false, is_enabled = true;
     bool has_object_globs = false, has_material_globs = false, has_select = false;
     std::vector<bool> objects, materials;  ///< for each number, from 0 = background: whether the globs take it
+    ExpressionRemarks remarks;             ///< on `select`
     ExpressionProgram select;              ///< one number: 0 = no
     std::shared_ptr<const LineTest> test;  ///< weakens its lines; nullptr: none
 };
@@ -156,9 +159,9 @@ class CompiledSheet {
     /// What match() reads.
     const VariableSet& select_variables() const { return select_variables_; }
 
-    /// A note for each set that draws nothing since none of the picture's names fits its patterns, and for each group
-    /// that is empty for the same reason.
-    std::vector<std::string> notes_on_names() const;
+    /// A note for each set that draws nothing since none of the picture's names fits its patterns, for each group that
+    /// is empty for the same reason, and for names and colours in expressions that are probably mistakes.
+    const std::vector<std::string>& notes_on_names() const { return notes_on_names_; }
     /// A note for each style whose wobble jumps as the view changes.
     std::vector<std::string> notes_on_wobble() const;
 
@@ -173,7 +176,7 @@ class CompiledSheet {
     std::vector<CompiledStyle> styles_;
     SheetNeeds needs_;
     VariableSet select_variables_;
-    std::vector<std::string> notes_on_groups_;
+    std::vector<std::string> notes_on_names_;
 };
 
 }  // namespace burin

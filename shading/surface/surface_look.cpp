@@ -10,6 +10,7 @@
 #include "shading/expression.h"
 #include "shading/expression/ramp.h"
 #include "shading/sheet/sheet_attributes.h"
+#include "shading/sheet/sheet_notes.h"
 #include "shading/sheet/sheet_symbols.h"
 
 namespace burin {
@@ -34,6 +35,7 @@ ExpressionSymbols surface_symbols(const SheetContext& context) {
         symbols.variables.push_back({"lit"});
     for (ExpressionVariable& v : symbols.variables) v.rate = ValueRate::sample;
     symbols.later.clear();
+    symbols.hint_for_unknown = "; surfaces have variables of their own, and know no parameters and lets of a sheet";
     return symbols;
 }
 
@@ -69,6 +71,7 @@ class SurfaceCompiler {
         }
     }
     void add_share(const StyleValue& value) { add(value, {false, 0, 1}); }
+    const ExpressionRemarks& remarks() const { return compiler_.remarks(); }
     void add_color(const StyleValue& value) { add(value, {true, 0, kMostSurfaceColor}); }
 
     ExpressionProgram program(const SourcePosition& where) const {
@@ -179,6 +182,7 @@ SurfaceLook::SurfaceLook(SurfaceShading of, const SurfaceRecipe& recipe, const S
             break;
     }
     program = compiler.program(recipe.where);
+    add_notes_on("[surfaces]", compiler.remarks(), context, notes);
     for (const ExpressionInput& input : program.inputs()) {
         SurfaceInput& made = inputs.emplace_back(surface_input(input));
         if (const auto layer = layer_of(made.variable, input.name)) made.layer = layer_number(*layer);

@@ -95,6 +95,7 @@ struct SurfaceLook {
     /// Its results, by shading: `expression`: the colour; `toon` with detail: how much of it; `hatch`: tone, ink and
     /// ground; else none.
     ExpressionProgram program;
+    std::vector<std::string> notes;    ///< on what is probably a mistake
     std::vector<SurfaceInput> inputs;  ///< of the program
     SurfaceVariables variables;        ///< that it reads
     std::vector<SurfaceLayer> layers;  ///< the values of files that it reads, or the hatching
