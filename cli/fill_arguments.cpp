@@ -88,6 +88,12 @@ void fill_scene_options(const Texts& t, Arguments& a) {
     }
     if (!t.lines.empty()) a.lines = line_classes(t.lines);
     if (!t.width.empty()) {
+        const bool has_unit =
+            t.width.ends_with("mm") || t.width.ends_with("pt") || t.width.ends_with("px") || t.width.ends_with('%');
+        if (has_unit)
+            fail("--line-width", "'" + printable(t.width) +
+                                     "' is no finite number: it is in pixels; with a style sheet, --set style.width=" +
+                                     printable(t.width) + " takes units");
         a.line_width_px = number("--line-width", t.width);
         if (!(*a.line_width_px > 0 && *a.line_width_px <= 1024)) {
             fail("--line-width", "must be greater than 0 and at most 1024 pixels");

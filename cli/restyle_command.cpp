@@ -86,6 +86,18 @@ void put_surfaces(const KeptSurface& surface, const Frame& frame, Film& film) {
     finish_stream_stores();
 }
 
+/// Only render draws surfaces.
+std::vector<std::string> notes_on_surfaces(const Arguments& a, bool has_saved_ones) {
+    std::vector<std::string> notes;
+    for (const Override& o : a.overrides) {
+        if (o.key != "style.surfaces" && !o.key.starts_with("style.surfaces.")) continue;
+        notes.push_back("--set " + o.key + " changes nothing: " +
+                        (has_saved_ones ? "surfaces stay as they were saved; render draws them again"
+                                        : "the lines were saved without surfaces; render draws them"));
+    }
+    return notes;
+}
+
 }  // namespace
 
 void run_restyle(const Arguments& a) {
@@ -141,7 +153,7 @@ void run_restyle(const Arguments& a) {
     if (film.channels().empty())
         throw UsageError("--layers: coverage has a channel per line class, and no class is drawn");
     put_surfaces(file.surface, frame, film);
-    std::vector<std::string> notes;
+    std::vector<std::string> notes = notes_on_surfaces(a, !file.surface.pixels.empty());
     VectorDrawing drawing;
     VectorStats paths;
     if (has_paths) {
