@@ -56,6 +56,28 @@ TEST(Restyle, DrawsOverTheSurfacesThatWereKept) {
     EXPECT_TRUE(read_file(folder.file("b.png")) == read_file(folder.file("c.png")));
 }
 
+TEST(Restyle, SaysThatSurfacesAreNotDrawnAgain) {
+    const TemporaryFolder folder;
+    const std::string scene = scene_file("crossing.toml");
+    for (const bool saves_surfaces : {false, true}) {
+        Arguments render = {"render", scene, "-o", "a.png", "-r", "80x60", "-q", "--style", "comic"};
+        const Arguments more = {"--save-lines", "a.lines", "--save-surface"};
+        render.insert(render.end(), more.begin(), more.end() - (saves_surfaces ? 0 : 1));
+        ASSERT_EQ(run_in(folder, render).err, "");
+        const auto notes = [&](const std::string& value) {
+            const ProgramResult result =
+                run_in(folder, {"restyle", "a.lines", "-o", "b.png", "--style", "comic", "--set", value});
+            EXPECT_EQ(result.status, 0) << result.err;
+            return result.err;
+        };
+        EXPECT_EQ(notes("style.surfaces.normals=flat"),
+                  std::string("burin: note: --set style.surfaces.normals changes nothing: ") +
+                      (saves_surfaces ? "surfaces stay as they were saved; render draws them again\n"
+                                      : "the lines were saved without surfaces; render draws them\n"));
+        EXPECT_EQ(notes("style.width=2"), "");
+    }
+}
+
 TEST(Restyle, KnowsTheLightOfTheScene) {
     const TemporaryFolder folder;
     // Its light is not at the eye, and widths of the sheet `comic` come from light.

@@ -173,8 +173,11 @@ TEST_F(Styles, SetChangesEveryValue) {
     expect_usage_error({"--style", "mine.toml", "--set", "style.inks.width=3"},
                        "the sheet has no style 'inks', did you mean 'ink'?; it has ink");
     expect_usage_error({"--style", "mine.toml", "--set", "style.ink.widht=3"}, "did you mean 'width'?");
-    expect_usage_error({"--style", "mine.toml", "--set", "style.set.none.qi=3"}, "the sheet has no such set");
+    expect_usage_error({"--style", "mine.toml", "--set", "style.set.none.qi=3"},
+                       "the sheet has no set 'none'; it has ");
     expect_usage_error({"--style", "mine.toml", "--set", "style.width=3mm"}, "must be at most 2mm, got 3mm");
+    expect_usage_error({"--style", "mine.toml", "--set", "style.width=8"},
+                       "must be at most 2mm, got 2.11666667mm (8px)");
     expect_usage_error({"--style", "mine.toml", "--set", "style.ink.width==depht"}, "unknown variable 'depht'");
     expect_usage_error({"--set", "style.width=3"}, "there is no style sheet; give one with --style");
 }

@@ -135,6 +135,8 @@ TEST_F(Usage, WidthsAndAngles) {
         expect_bad_options({"-w", value}, "--line-width");
         expect_bad_options({std::string("--line-width=") + value}, "--line-width");
     }
+    expect_bad_options({"-w", "0.5mm"},
+                       "'0.5mm' is no finite number: it is in pixels; with a style sheet, --set style.width=0.5mm");
     for (const char* value : {"-1", "180.1", "nan", "flat", "", "45,35", "35,181", "35,40,45", "35,"})
         expect_bad_options({"--crease-angle", value}, "--crease-angle");
     for (const char* value : {"0", "180", "-35", "nan", "inf", "wide", ""})

@@ -59,6 +59,73 @@ TEST(StyledNotes, NameGroupsThatFitNothing) {
     EXPECT_TRUE(CompiledSheet(sheet, context).notes_on_names().empty());
 }
 
+/// The notes on a sheet with one set `a` and one style `ink`, in a scene of a box and a door.
+std::vector<std::string> notes_of_names(const std::string& set, const std::string& style,
+                                        const std::string& rest = "") {
+    const StyleSheet sheet =
+        read_sheet_text("style_version = 1\n[[set]]\nname = \"a\"\nclasses = [\"crease\"]\nstyle = \"ink\"\n" + set +
+                            "\n[style.ink]\n" + style + "\n" + rest,
+                        "sheet.toml");
+    SheetContext context;
+    context.objects = {"box", "door"};
+    context.materials = {"steel"};
+    return CompiledSheet(sheet, context).notes_on_names();
+}
+
+using Notes = std::vector<std::string>;
+
+TEST(StyledNotes, NameNamesInExpressionsThatNothingHas) {
+    const std::string listed = " (burin info lists them)";
+    const std::string bxo = "no object fits 'bxo', did you mean 'box'?" + listed;
+    EXPECT_EQ(notes_of_names("select = 'object == \"bxo\" or object2 == \"bxo\"'", ""), Notes{"set a: " + bxo});
+    EXPECT_EQ(notes_of_names("select = 'between_objects(\"bxo\", \"door\")'", ""), Notes{"set a: " + bxo});
+    EXPECT_EQ(notes_of_names("select = 'between_materials(\"stele\", \"*\")'", ""),
+              Notes{"set a: no material fits 'stele', did you mean 'steel'?" + listed});
+    EXPECT_EQ(notes_of_names("select = 'object != \"wheel*\"'", ""), Notes{"set a: no object fits 'wheel*'" + listed});
+    EXPECT_EQ(notes_of_names("", "width = '=object == \"bxo\" ? 2 : 1'\nopacity = '=material == \"x\"'"),
+              (Notes{"style ink: " + bxo, "style ink: no material fits 'x'" + listed}));
+    EXPECT_EQ(notes_of_names("", "width = \"=wide\"\nopacity = \"=wide\"",
+                             "[let]\nwide = '=object == \"bxo\" ? 2 : 1'\nnone = '=object == \"door 2\"'"),
+              Notes{"style ink: " + bxo});
+    EXPECT_EQ(notes_of_names("select = 'object == \"bo*\" or class == \"mark\" or object2 == \"door\"'", ""), Notes{});
+    EXPECT_EQ(notes_of_names("enabled = false\nselect = 'object == \"bxo\"'", "width = '=object == \"bxo\"'"), Notes{});
+    EXPECT_EQ(notes_of_names("", "", "[style.other]\nwidth = '=object == \"bxo\"'"), Notes{});
+}
+
+TEST(StyledNotes, NameWhatPatternsOfASetMayMean) {
+    const std::string parts = "; parts of a file are called NAME/PART (burin info lists them)";
+    EXPECT_EQ(notes_of_names("objects = [\"bxo\"]", ""),
+              Notes{"set a: no object fits its objects, did you mean 'box'?" + parts});
+    const std::string groups = "[groups]\ng = { objects = [\"box\"] }\nm = { materials = [\"steel\"] }\n";
+    EXPECT_EQ(notes_of_names("objects = [\"g\"]", "", groups),
+              Notes{"set a: no object fits its objects; 'g' is a group, which is written select = \"object in g\""});
+    EXPECT_EQ(
+        notes_of_names("materials = [\"m\"]", "", groups),
+        Notes{"set a: no material fits its materials; 'm' is a group, which is written select = \"material in m\""});
+    EXPECT_EQ(notes_of_names("objects = [\"m\"]", "", groups), Notes{"set a: no object fits its objects" + parts});
+}
+
+TEST(StyledNotes, NameColoursThatAreProbablyMeantFrom0To255) {
+    const auto note = [](const std::string& values, const std::string& hex) {
+        return Notes{"style ink: a colour has " + values + ", beyond 1: components are from 0 to 1" + hex};
+    };
+    const Notes brown = note("120, 60, 30", "; for 0 to 255 write #783c1e");
+    EXPECT_EQ(notes_of_names("", "color = [120, 60, 30]"), brown);
+    EXPECT_EQ(notes_of_names("", "color = \"=rgb(120, 60, 30)\""), brown);
+    EXPECT_EQ(notes_of_names("", "color = \"=light > 0.5 ? (facing > 0 ? #000000 : rgb(2*60, 60, 30)) : C\""), brown);
+    EXPECT_EQ(notes_of_names("", "color = \"=c\"", "[parameters]\nc = [120, 60, 30]"), brown);
+    EXPECT_EQ(notes_of_names("", "color = \"=c\"", "[let]\nc = \"=rgb(120, 60, 30)\""), brown);
+    EXPECT_EQ(notes_of_names("", "color = { over = \"t\", stops = [[0, [0, 0, 0]], [1, [120, 60, 30]]] }"), brown);
+    EXPECT_EQ(notes_of_names("", "color = '=ramp(\"r\", t)'", "[ramp.r]\nstops = [[0, [120, 60, 30]]]"), brown);
+    EXPECT_EQ(notes_of_names("", "color = [1.5, 1, 0]"), note("1.5, 1, 0", ""));
+    EXPECT_EQ(notes_of_names("", "color = [2, 2, 2]"), note("2, 2, 2", ""));  // rather light than nearly black
+    EXPECT_EQ(notes_of_names("", "color = [1, 1, 256]"), note("1, 1, 256", ""));
+    for (const char* right : {"color = [1, 1, 1]", "color = \"=rgb(1, t, 200)\"", "color = \"=rgb(120, 60, 30) / 255\"",
+                              "width = \"=rgb(1, 1, 0.5).r\""})
+        EXPECT_EQ(notes_of_names("", right), Notes{}) << right;
+    EXPECT_EQ(notes_of_names("", "", "[style.other]\ncolor = [120, 60, 30]"), Notes{});
+}
+
 TEST(StyledNotes, SayThatWobbleOfContoursJumps) {
     const auto notes_of = [](const std::string& classes, const std::string& wobble, const std::string& set = "") {
         return notes_on({{rectangle(20, 20, 60, 60, 0)},

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/abuffer.h"
+#include "methods/reference/reference.h"
 #include "shading/surface/surface_recipe.h"
 #include "tests/scene/scene_text.h"
+#include "tests/support/drawing.h"
 
 namespace burin::surfaces_keys_test {
 namespace {
@@ -102,6 +105,31 @@ TEST(SurfaceKeys, FaultsAreNamedWithTheirPlace) {
     for (const Case& c : cases) {
         const std::string message = fault(c.text);
         EXPECT_TRUE(message.starts_with(std::string("scene.toml:") + c.message)) << c.text << message;
+    }
+}
+
+TEST(SurfaceKeys, NamesOfSheetsAreNotKnownAndProbableMistakesAreNoted) {
+    const auto notes_of = [](const std::string& color, RenderFunction render) {
+        const Scene scene = loaded("[lines]\ndraw = 'none'\n[surfaces]\ncolor = '" + color + "'\n" + kBox);
+        const Frame frame = make_frame(scene, pixel_camera(8, 8), 8, 8, {0, 0, 8, 8});
+        Film film({0, 0, 8, 8}, frame.crop, {}, frame.criteria.classes);
+        return render(frame, {}, film).notes;
+    };
+    const std::vector<std::string> wrong{
+        "[surfaces]: no object fits 'x' (burin info lists them)",
+        "[surfaces]: a colour has 200, 0, 0, beyond 1: components are from 0 to 1; for 0 to 255 write #c80000"};
+    for (const RenderFunction render : {render_abuffer, render_reference}) {
+        EXPECT_EQ(notes_of("=object == \"x\" ? rgb(200, 0, 0) : C", render), wrong);
+        EXPECT_EQ(notes_of("=object == \"*\" ? rgb(1, 0, 0) : C", render), std::vector<std::string>{});
+    }
+    try {
+        notes_of("=width", render_abuffer);
+        FAIL();
+    } catch (const InputError& error) {
+        const std::string words =
+            "unknown variable 'width'; surfaces have variables of their own, and know no parameters and lets of a "
+            "sheet";
+        EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
     }
 }
 

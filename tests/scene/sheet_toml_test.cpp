@@ -85,7 +85,7 @@ TEST(SheetErrors, OfValues) {
                            {"width = 4097", "8:9", "must be at least 0 and at most 4096, got 4097"},
                            {"width = \"2000mm\"", "8:9", "is 7559.05512 px; at most 4096 px are possible"},
                            {"width = true", "8:9", "must be a number (pixels), a length"},
-                           {"width = \"3cm\"", "8:9", "must be a number (pixels), a length"},
+                           {"width = \"3cm\"", "8:9", "unknown unit 'cm'"},
                            {"width = nan", "8:9", "must be a finite number"},
                            {"opacity = \"1mm\"", "8:11", "takes no unit"},
                            {"opacity = 1.5", "8:11", "at most 1, got 1.5"},
@@ -198,6 +198,33 @@ TEST(SheetErrors, OfTheWholeSheet) {
     EXPECT_NE(error_of(group(names + "\"part*\"")).find("objects: has more than 256 entries"), std::string::npos);
 }
 
+TEST(SheetErrors, SayWhatToDo) {
+    expect_mistakes(kInk, {{"width = \"=2", "8:12", "; is the closing quote missing?"},
+                           {"color = \"#123456\nwidth = 2", "8:17", "; is the closing quote missing?"},
+                           {"color = '#123456", "8:17", "; is the closing quote missing?"},
+                           {"color = \xE2\x80\x9C#123456\xE2\x80\x9D", "8:9", "; quotes are written \" here"},
+                           {"color = \xE2\x80\x98#123456\xE2\x80\x99", "8:9", "; quotes are written \" here"},
+                           {"width = \"1cm\"", "8:9", "unknown unit 'cm': give px, mm, pt, % or world"},
+                           {"width = \"2 in\"", "8:9", "unknown unit 'in': give px, mm, pt, % or world"},
+                           {"width = \"wide\"", "8:9", "must be a number (pixels)"},
+                           {"width = \"=lenght\"", "8:11", "unknown variable 'lenght', did you mean 'length'?"},
+                           {"light = [0, 0, 1]", "8:1",
+                            "unknown key 'light'; as a key of the whole file it belongs above the first table"},
+                           {"[let]\nlight = 1", "9:9",
+                            "choose another name; as a key of the whole file it belongs above the first table"},
+                           {"[parameters]\nw = { value = \"1mm\", min = \"0.05mm\" }", "9:28",
+                            "must be a number: it is in the unit of value, mm"},
+                           {"[parameters]\nw = { value = 1, max = \"2mm\" }", "9:24",
+                            "must be a number: it is in the unit of value, px"},
+                           {"[styles.pen]\nwidth = 3", "8:2", "unknown key 'styles'; did you mean 'style'?"}});
+    expect_mistakes("", {{"[set]\nname = \"a\"\n[[set]]\nname = \"b\"", "3:1", "; each of several is written [[set]]"},
+                         {"[[set]]\nname = \"a\"\nclasses = \"crease\"\nstyle = \"ink\"\n[styles.ink]\nwidth = 3",
+                          "5:2", "unknown key 'styles'; did you mean 'style'?"}});
+    const std::string select = "[style.ink]\n[[set]]\nname = \"a\"\nclasses = [\"crease\"]\nstyle = \"ink\"\nselect = ";
+    expect_mistakes(select, {{"\"object == body\"", "6:21",
+                              "unknown variable 'body'; names stand in double quotes: object == \"body\""}});
+}
+
 TEST(SheetErrors, OfSheetsWithTooManyValues) {
     const auto keys = [](std::size_t count) {
         std::string text = kInk + "[let]\n";
@@ -250,10 +277,39 @@ TEST(SheetErrors, OfTheCommandLine) {
     EXPECT_NE(error_of(sheet, {{"style.v", "5"}}).find("no parameter 'v'"), std::string::npos);
     EXPECT_NE(error_of(sheet, {{"style.inc.width", "5"}}).find("no style 'inc', did you mean 'ink'?"),
               std::string::npos);
+    // What a sheet names is changed, not made.
+    const std::string named = sheet + "[groups]\nwheels = { objects = [\"*\"] }\n[ramp.fade]\nstops = [[0, 1]]\n";
+    const struct {
+        const char *key, *words;
+    } unknown[] = {{"style.let.x2", "the sheet has no let 'x2', did you mean 'x1'?; it has x1"},
+                   {"style.ramp.fad.between", "the sheet has no ramp 'fad', did you mean 'fade'?; it has fade"},
+                   {"style.groups.weels", "the sheet has no group 'weels', did you mean 'wheels'?; it has wheels"},
+                   {"style.parameters.v", "the sheet has no parameter 'v', did you mean 'w'?; it has w"},
+                   {"style.set.b.enabled", "the sheet has no set 'b', did you mean 'a'?; it has a"}};
+    for (const auto& [key, words] : unknown)
+        EXPECT_NE(error_of(named, {{key, "1"}}).find(words), std::string::npos) << error_of(named, {{key, "1"}});
+    for (const char* key : {"style.let.x1", "style.parameters.w.max"}) EXPECT_EQ(error_of(named, {{key, "3"}}), "");
     EXPECT_EQ(error_of(sheet, {{"style.ink.widht", "5"}}).find("usage: --set style.ink.widht=5: "), 0u);
     const std::string fault = error_of(sheet, {{"style.ink.width", "=depht"}});
     EXPECT_NE(fault.find("usage: --set style.ink.width==depht: "), std::string::npos) << fault;
     EXPECT_NE(fault.find("character 2: unknown variable 'depht'"), std::string::npos) << fault;
+}
+
+TEST(Sheets, TakeListsOfNamesFromTheCommandLineAsTheyAreTyped) {
+    const auto set_of = [](const std::string& key, const std::string& value) {
+        return read_sheet_text(kInk, "s.toml", {{"style.set.a." + key, value}}).sets.front();
+    };
+    const LineClassSet both = LineClassSet(LineClass::silhouette) | LineClass::border;
+    for (const char* value :
+         {"silhouette,border", "silhouette, border", "[silhouette,border]", "[\"silhouette\", \"border\"]"})
+        EXPECT_EQ(set_of("classes", value).classes, both) << value;
+    const std::vector<std::string> names{"wheel*", "!wheel 2"};
+    for (const char* value : {"wheel*,!wheel 2", "[wheel*, !wheel 2]", "[\"wheel*\", \"!wheel 2\"]"}) {
+        EXPECT_EQ(set_of("objects", value).objects, names) << value;
+        EXPECT_EQ(set_of("materials", value).materials, names) << value;
+    }
+    EXPECT_EQ(set_of("objects", "\"a,b\"").objects, std::vector<std::string>{"a,b"});
+    EXPECT_EQ(set_of("objects", "body").objects, std::vector<std::string>{"body"});
 }
 
 TEST(Sheets, InheritAndTakeParameters) {

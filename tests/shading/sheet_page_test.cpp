@@ -120,7 +120,7 @@ TEST(SheetPage, MessagesOfStylesAreThoseOfTheProgram) {
         const std::string error = error_of(kSet + kStyle + line);
         EXPECT_TRUE(error.ends_with(": " + message)) << error << "\n" << message;
     }
-    EXPECT_EQ(count, 7u);
+    EXPECT_EQ(count, 9u);
 }
 
 }  // namespace
