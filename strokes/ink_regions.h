@@ -50,7 +50,7 @@ struct InkStack {
 /// There are at most kMost, or kMostInPlace; then the two most alike become one.
 class InkRegions {
   public:
-    static constexpr std::size_t kMost = 8, kMostInPlace = 32;
+    static constexpr std::size_t kMost = 8, kMostInPlace = 64;
     static constexpr int kSamples = StrokeMask::kRows * StrokeMask::kColumns;
 
     /// `in_place`: where in the pixel each region lies is asked for, as filters do, so that fewer become one.
