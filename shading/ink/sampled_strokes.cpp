@@ -136,8 +136,10 @@ class Across {
     /// Where on a piece's two sides "away from the surface that ends there" is: 1 to the right of its way, -1 to the
     /// left. Pieces of a line that fold back have that surface on the other side.
     static double away(const LinePiece& piece) { return piece.occludes && !piece.front_on_left ? -1 : 1; }
-    static glm::dvec2 away_across(const LinePiece& p) {
-        return glm::dvec2(p.from.y - p.to.y, p.to.x - p.from.x) * away(p);
+    /// The way of a piece, turned away from the surface, or as seen from `own` if none ends at one of them.
+    static glm::dvec2 away_across(const LinePiece& p, const LinePiece& own) {
+        const double side = own.occludes && p.occludes ? away(p) : away(own);
+        return glm::dvec2(p.from.y - p.to.y, p.to.x - p.from.x) * side;
     }
 
     /// What a run is like around the middle of a piece.
@@ -147,12 +149,12 @@ class Across {
         double turn = 0, turns = 0;  // from first to last; and all turns, whichever way
     };
     /// Adds what lies so far along a run to one side.
-    void look_along(const LineRun& run, std::size_t piece, bool is_behind, double around_px, Around& found) const {
+    void look_along(const LineRun& run, std::size_t piece, bool is_behind, double around_px, const LinePiece& own,
+                    Around& found) const {
         std::size_t at = piece;
         double share = 0.5;  // of the piece
         for (int i = 0; i < kMostPieces && around_px > 0; ++i) {
-            const LinePiece& p = runs_.pieces[at].piece;
-            const glm::dvec2 across = away_across(p) * share;
+            const glm::dvec2 across = away_across(runs_.pieces[at].piece, own) * share;
             const double length = glm::length(across);
             if (length > 0) found.sum += across * std::min(1.0, around_px / length);
             found.length_px += std::min(length, around_px);
@@ -161,8 +163,8 @@ class Across {
             const std::size_t next = beside(run, at, is_behind);
             if (next == at || next == piece) return;
             if (around_px > 0) {
-                const glm::dvec2 before = is_behind ? across : away_across(runs_.pieces[next].piece),
-                                 after = is_behind ? away_across(runs_.pieces[next].piece) : across;
+                const glm::dvec2 beyond = away_across(runs_.pieces[next].piece, own);
+                const glm::dvec2 before = is_behind ? across : beyond, after = is_behind ? beyond : across;
                 const double turn =
                     std::atan2(before.x * after.y - before.y * after.x, before.x * after.x + before.y * after.y);
                 found.turn += turn;
@@ -176,13 +178,13 @@ class Across {
         glm::dvec2 unit;
         double strength;  // less than 1 where the line turns back on itself: there is no such direction
     };
-    Direction away_from(const LineRun& run, std::size_t piece, double around_px) const {
-        const glm::dvec2 across = away_across(runs_.pieces[piece].piece);
+    Direction away_from(const LineRun& run, std::size_t piece, double around_px, const LinePiece& own) const {
+        const glm::dvec2 across = away_across(runs_.pieces[piece].piece, own);
         const auto unit = [](glm::dvec2 v) { return v / std::max(glm::length(v), 1e-300); };
         if (glm::length(across) >= 2 * around_px) return {unit(across), 1};
         Around around;
-        look_along(run, piece, true, around_px, around);
-        look_along(run, piece, false, around_px, around);
+        look_along(run, piece, true, around_px, own, around);
+        look_along(run, piece, false, around_px, own, around);
         // Corners and curves turn one way, and not back. What turns to and fro, or right round, is a fold.
         constexpr double kQuarterTurn = 1.5707963267948966, kSharpestCorner = 4.0 / 3 * kQuarterTurn;
         const double excess = around.turns - std::min(std::abs(around.turn), kSharpestCorner);
@@ -194,11 +196,12 @@ class Across {
     glm::dvec2 joint(std::uint32_t run_number, std::size_t piece, bool is_end, double around_px) const {
         const LineRun& run = runs_.runs[run_number];
         const std::size_t other = beside(run, piece, is_end);
-        const double to_right = away(runs_.pieces[piece].piece);
-        const Direction own = away_from(run, piece, around_px);
+        const LinePiece& own_piece = runs_.pieces[piece].piece;
+        const double to_right = away(own_piece);
+        const Direction own = away_from(run, piece, around_px, own_piece);
         if (other == piece) return to_right * own.strength * own.unit;
         // Both are the same on either side of the joint, so that the moved line has no step there.
-        const Direction beyond = away_from(run, other, around_px);
+        const Direction beyond = away_from(run, other, around_px, own_piece);
         const Direction &first = is_end ? own : beyond, &second = is_end ? beyond : own;
         const glm::dvec2 sum = first.unit + second.unit;
         const double square = glm::dot(sum, sum), strength = 0.5 * to_right * (first.strength + second.strength);

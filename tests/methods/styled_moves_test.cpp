@@ -112,5 +112,34 @@ TEST(StyledPlaces, OffsetOfContoursThatFoldHasNoSpikes) {
     }
 }
 
+/// The rim of a plate is one line, of which a part is the plate's outline and the rest an edge between two surfaces
+/// that are seen. The part that is moved keeps its distance up to where it ends.
+TEST(StyledPlaces, OffsetOfAPartOfALineKeepsItsDistance) {
+    const ShadedScene scene(
+        "[camera]\neye = [3, 2.5, 6]\nfov = 30\n[[object]]\nname = \"plate\"\n"
+        "shape = \"cylinder\"\nradius = 2\nheight = 0.15\n",
+        "[[set]]\nname = \"shore\"\nclasses = [\"silhouette\"]\nstyle = \"shore\"\n"
+        "[[set]]\nname = \"edges\"\nclasses = [\"crease\", \"polygon\"]\nstyle = \"edge\"\n"
+        "[style.shore]\nwidth = 1\noffset = 12\n[style.edge]\nwidth = 0.5\n",
+        400, 300);
+    const LineRuns runs = scene.found().runs;
+    const InkedLines lines = scene.inked();
+    int moved = 0;
+    for (const InkStroke& stroke : lines.strokes) {
+        if (stroke.order.set != 0) continue;
+        for (const InkPoint& p : lines.points_of(stroke)) {
+            double least = std::numeric_limits<double>::infinity();
+            for (const RunPiece& of_run : runs.pieces) {
+                const glm::dvec2 way = of_run.piece.to - of_run.piece.from, from = of_run.piece.from;
+                const double share = std::clamp(glm::dot(p.place - from, way) / glm::dot(way, way), 0.0, 1.0);
+                least = std::min(least, glm::distance(p.place, from + share * way));
+            }
+            EXPECT_NEAR(least, 12, 0.5) << p.place.x << ',' << p.place.y;
+            ++moved;
+        }
+    }
+    EXPECT_GT(moved, 50);
+}
+
 }  // namespace
 }  // namespace burin::styled_moves_test
