@@ -130,6 +130,7 @@ class StrokeExplainer {
     struct NearStroke {
         std::vector<std::size_t> parts;               ///< as its dashes are
         std::vector<InkStroke> inked, opaque, halos;  ///< its near parts in some_: as they are, opaque, without ink
+        std::vector<InkStroke> far_halos;             ///< of the parts of which the halo alone may reach the pixel
     };
 
     /// Puts the points of near strokes into some_. Strokes are in the order of their uppermost parts.
@@ -143,7 +144,8 @@ class StrokeExplainer {
             auto known = std::find_if(near_strokes_.begin(), near_strokes_.end(), is_same);
             if (known == near_strokes_.end()) known = near_strokes_.insert(known, NearStroke{});
             known->parts.push_back(i);
-            if (reaches(part, 0)) {
+            const bool has_ink = reaches(part, 0);
+            if (has_ink) {
                 known->inked.push_back(put(part, [](float opacity) { return opacity; }));
                 known->opaque.push_back(put(part, [](float opacity) { return opacity > 0 ? 1.0f : 0.0f; }));
                 known->opaque.back().blend = InkBlend::over;
@@ -151,6 +153,7 @@ class StrokeExplainer {
             if (part.halo_px <= 0) continue;
             known->halos.push_back(put(part, [](float opacity) { return opacity > 0 ? kNoInk : 0.0f; }));
             known->halos.back().blend = InkBlend::over;
+            if (!has_ink) known->far_halos.push_back(known->halos.back());
         }
     }
     template <typename Opacity>
@@ -222,9 +225,7 @@ class StrokeExplainer {
         };
         for (const std::size_t i : strokes) {
             add(is_opaque ? near_strokes_[i].opaque : near_strokes_[i].inked);
-            // Of its parts that are too far away for ink of theirs.
-            if (!is_opaque && near_strokes_[i].inked.size() < near_strokes_[i].halos.size())
-                add(near_strokes_[i].halos);
+            if (!is_opaque) add(near_strokes_[i].far_halos);
         }
         for (const std::size_t i : halos) add(near_strokes_[i].halos);
         if (some_.strokes.empty()) return 0;
@@ -315,6 +316,7 @@ class StrokeExplainer {
         to.ink = ink.front();
         to.taper = static_cast<double>(values.taper_at(sample, *chain));
         to.min_length = static_cast<double>(values.length_strength(sample.run, *chain));
+        to.moved = static_cast<double>(values.moved_strength(sample.run, to.ink.offset_px));
         const LinePiece& piece = found_.runs.pieces[sample.piece].piece;
         to.fade = piece.opacity / 255.0;
         to.seen = piece.transmission / 255.0;

@@ -41,9 +41,10 @@ struct ExplainedStroke : ExplainedLine {
     double covers = 0, shows = 0;    ///< shares of the pixel: with ink, and of that what is left to be seen
     double erased = 0;               ///< share of the pixel that halos take from `covers`
     std::vector<ErasingStroke> erased_by;
-    InkValues ink;                              ///< where the line is nearest to the pixel
-    double taper = 1;                           ///< what the width has been multiplied by
-    double min_length = 1, fade = 1, seen = 1;  ///< the opacity: by `min_length`, a fading crease, and what is in front
+    InkValues ink;     ///< where the line is nearest to the pixel
+    double taper = 1;  ///< what the width has been multiplied by
+    /// The opacity: by `min_length`, a fading crease, what is in front, and for a short run that is moved far.
+    double min_length = 1, fade = 1, seen = 1, moved = 1;
     /// How the values stand in the sheet: "=1 + t", "ramp over depth"; empty: constants.
     std::array<std::string, kInkValueCount> sources;
     std::string shader, test;          ///< that change them; empty: none

@@ -163,10 +163,12 @@ std::string text_of(std::size_t rank, const ExplainedStroke& stroke) {
     static_assert(kInkValueCount == 4, "each of them has a line");
     text += "\n    width " + number(width_px) + " px" +
             equals(stroke, InkValue::width, width_px, {{"taper", stroke.taper}});
-    text +=
-        "\n    opacity " + number(opacity) +
-        equals(stroke, InkValue::opacity, opacity,
-               {{"min_length", stroke.min_length}, {"its crease fades", stroke.fade}, {"seen through", stroke.seen}});
+    text += "\n    opacity " + number(opacity) +
+            equals(stroke, InkValue::opacity, opacity,
+                   {{"min_length", stroke.min_length},
+                    {"its crease fades", stroke.fade},
+                    {"seen through", stroke.seen},
+                    {"short and moved far", stroke.moved}});
     text += "\n    color " + hex_of(ink.color) + equals(stroke, InkValue::color);
     if (ink.offset_px != 0)
         text += "\n    offset " + number(static_cast<double>(ink.offset_px)) + " px" + equals(stroke, InkValue::offset);
@@ -292,7 +294,13 @@ void write_stroke(JsonWriter& json, const ExplainedStroke& stroke) {
     write_number(json, "width", stroke.ink.width_px, stroke, InkValue::width);
     json.key("taper").value(stroke.taper).end_object();
     write_number(json, "opacity", stroke.ink.opacity, stroke, InkValue::opacity);
-    json.key("min_length").value(stroke.min_length).key("fade").value(stroke.fade).key("seen_through");
+    json.key("min_length")
+        .value(stroke.min_length)
+        .key("fade")
+        .value(stroke.fade)
+        .key("moved")
+        .value(stroke.moved)
+        .key("seen_through");
     json.value(stroke.seen).end_object();
     write_number(json, "offset", stroke.ink.offset_px, stroke, InkValue::offset);
     json.end_object();

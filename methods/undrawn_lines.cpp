@@ -222,6 +222,7 @@ class UndrawnLinesFinder {
         }
         if (distance_px < radius_px)
             return "it is moved aside by " + rounded(static_cast<double>(std::abs(ink.offset_px))) + " px";
+        if (!std::isfinite(gap_px)) return "nothing of its run is left: its dashes, overshoot or fading take all of it";
         return "its ink is " + rounded(static_cast<double>(ink.width_px)) + " px wide and ends " + rounded(gap_px) +
                " px from the middle of the pixel";
     }
@@ -252,7 +253,8 @@ class UndrawnLinesFinder {
         if (piece.opacity == 0) return "its crease has not begun to fade in";
         if (piece.seen_opacity() == 0) return "what is in front of it lets nothing through";
         if (of_sheet.opacity <= 0 && values.moved_strength(sample.run, of_sheet.offset_px) <= 0)
-            return "its run of " + rounded(runs.length_px(runs.runs[sample.run])) + " px is too short for its offset";
+            return "its run of " + rounded(runs.length_px(runs.runs[sample.run])) + " px is too short to be moved by " +
+                   rounded(static_cast<double>(std::abs(of_sheet.offset_px))) + " px";
         if (of_sheet.opacity <= 0) return "its opacity is 0 there";
         if (of_shader.width_px <= 0) return "shader " + printable(style.shader->text, 100) + " makes its width 0";
         if (of_shader.opacity <= 0) return "shader " + printable(style.shader->text, 100) + " makes its opacity 0";

@@ -188,11 +188,14 @@ void StrokeValues::evaluate(std::span<const LineSample> samples, std::span<const
         InkValues& value = values[i];
         value.width_px = width[i] * taper_at(samples[i], *chains[i]);
         value.opacity = opacity[i] * (static_cast<float>(piece.seen_opacity()) / 255.0f);
-        value.opacity *= length_strength(samples[i].run, *chains[i]) * moved_strength(samples[i].run, offset[i]);
+        value.opacity *= length_strength(samples[i].run, *chains[i]);
         value.offset_px = to_right(piece) * offset[i];
         value.color = {color[0][i], color[1][i], color[2][i]};
     }
     if (style_.has_wobble) add_wobble(samples, chains, values);
+    if (!may_move()) return;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        values[i].opacity *= moved_strength(samples[i].run, values[i].offset_px);
 }
 
 /// Noise that lines are moved across by. On the object, its waves keep their place and, within a factor of two, their

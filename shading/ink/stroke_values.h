@@ -102,8 +102,8 @@ class StrokeValues {
     float taper_at(const LineSample& sample, const ChainValues& chain) const;
     /// What `min_length` multiplies the opacity of a run by.
     float length_strength(std::uint32_t run, const ChainValues& chain) const;
-    /// How much is left of a run that its style's offset moves. Crumbs, as lie where contours fold back, would be left
-    /// alone far from their line, on either side of it.
+    /// What the opacity of a run is multiplied by where it is moved by that much. Crumbs, as lie where contours fold
+    /// back, would be left alone far from their line, on either side of it.
     float moved_strength(std::uint32_t run, float offset_px) const;
     /// Whether anything changes along a piece, so that there must be samples between its ends.
     bool varies() const { return varies_; }

@@ -85,15 +85,16 @@ TEST(ExplainReasons, HalosTakeWhatStrokesShow) {
 }
 
 /// What strokes show is what a picture has of them.
+/// Of half precision, for values of 0 to 1.
+double number_of(std::uint16_t bits) {
+    const int exponent = bits >> 10;
+    return exponent == 0 ? std::ldexp(bits, -24) : std::ldexp((bits & 1023) + 1024, exponent - 25);
+}
+
 TEST(ExplainReasons, WhatShowsIsInThePicture) {
     Scene scene = styled(kBars, kHalos);
     const Picture picture = scene.render(kBarsView, {.layers = "lines"});
     const std::span<const std::uint16_t> halves = picture.channel<std::uint16_t>("lines.A");
-    // Half precision, for values of 0 to 1.
-    const auto number = [](std::uint16_t bits) {
-        const int exponent = bits >> 10;
-        return exponent == 0 ? std::ldexp(bits, -24) : std::ldexp((bits & 1023) + 1024, exponent - 25);
-    };
     int erased = 0, partly = 0;
     for (int y = 90; y < 124; ++y) {
         for (int x = 244; x < 252; x += 2) {
@@ -104,12 +105,37 @@ TEST(ExplainReasons, WhatShowsIsInThePicture) {
                 if (stroke["erased"] > 0) ++erased;
                 if (stroke["erased"] > 0 && stroke["erased"] < stroke["covers"]) ++partly;
             }
-            EXPECT_NEAR(shows, number(halves[static_cast<std::size_t>(y) * 600 + static_cast<std::size_t>(x)]), 2e-3)
+            EXPECT_NEAR(shows, number_of(halves[static_cast<std::size_t>(y) * 600 + static_cast<std::size_t>(x)]), 2e-3)
                 << x << "," << y;
         }
     }
     EXPECT_GT(erased, 20);
     EXPECT_GT(partly, 0);
+}
+
+/// Lines that bend have parts that are near a pixel by their halo alone, beside those that have ink there.
+TEST(ExplainReasons, WhatShowsIsInThePictureWhereLinesBend) {
+    const View view{.width = 120, .height = 90};
+    Scene scene = styled(
+        "[camera]\neye = [3, 2.5, 5]\nfov = 30\n"
+        "[[object]]\nname = \"ring\"\nshape = \"torus\"\nrotate = [50, 0, 20]\n"
+        "[[object]]\nname = \"pin\"\nshape = \"cylinder\"\nradius = 0.4\nheight = 2.5\n",
+        "[[set]]\nname = \"all\"\nclasses = [\"silhouette\", \"crease\", \"intersection\"]\n"
+        "style = \"ink\"\n[style.ink]\nwidth = 2\nhalo = 4\n");
+    const Picture picture = scene.render(view, {.layers = "lines"});
+    const std::span<const std::uint16_t> halves = picture.channel<std::uint16_t>("lines.A");
+    int inked = 0;
+    for (std::size_t i = 0; i < halves.size(); i += 7) {
+        const double alpha = number_of(halves[i]);
+        if (alpha < 0.05) continue;
+        const int x = static_cast<int>(i % 120), y = static_cast<int>(i / 120);
+        double shows = 0;
+        const Json strokes = Json::parse(scene.explain(x, y, view, "json"))["strokes"];
+        for (const Json& stroke : strokes) shows += stroke["shows"].get<double>();
+        EXPECT_NEAR(shows, alpha, 0.01) << x << "," << y;
+        ++inked;
+    }
+    EXPECT_GT(inked, 40);
 }
 
 /// A box that fills 100 x 100 pixels in the middle: its left side lies at x = 30.
