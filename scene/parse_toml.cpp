@@ -55,6 +55,26 @@ std::string_view line_of(std::string_view text, std::size_t number) {
     return text.substr(0, text.find('\n'));
 }
 
+/// A line without its strings and its comment.
+std::string bare(std::string_view line) {
+    std::string rest;
+    char quote = 0;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const char c = line[i];
+        if (quote != 0) {
+            if (c == '\\' && quote == '"') ++i;
+            if (c == quote) quote = 0;
+        } else if (c == '#') {
+            break;
+        } else if (c == '"' || c == '\'') {
+            quote = c;
+        } else {
+            rest += c;
+        }
+    }
+    return rest;
+}
+
 /// What to do about common mistakes in TOML itself, whose messages name the consequence: "; ...", or nothing.
 std::string hint_for(std::string_view line, std::string_view message) {
     const auto has = [&](std::string_view words) { return message.find(words) != std::string_view::npos; };
@@ -62,9 +82,10 @@ std::string hint_for(std::string_view line, std::string_view message) {
     if (has("string") && (has("control characters") || has("end-of-file")) &&
         std::none_of(line.begin(), line.end(), is_control))
         return "; is the closing quote missing?";
+    const std::string code = bare(line);
     for (const std::string_view quote : {"\xE2\x80\x9C", "\xE2\x80\x9D", "\xE2\x80\x9E", "\xE2\x80\x98", "\xE2\x80\x99",
                                          "\xE2\x80\x9A", "\xC2\xAB", "\xC2\xBB"}) {
-        if (line.find(quote) != std::string_view::npos) return "; quotes are written \" here";
+        if (code.find(quote) != std::string::npos) return "; quotes are written \" here";
     }
     if (!has("redefine")) return {};
     for (const std::string_view list : {"set", "object", "camera", "material", "light"}) {

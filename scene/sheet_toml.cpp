@@ -50,9 +50,10 @@ class SheetReader {
         root_.set_top_keys(kSheetKeys);
         for (const std::string_view key : kSheetKeys) root_.node(key);
         for (const std::string_view key : kSheetTables) root_.node(key);
-        root_.finish();
+        // Later versions may have keys that this one does not know.
         if (const auto version = root_.integer("style_version", 0, 1000000); version && *version != 1)
             root_.fail("style_version", "is " + std::to_string(*version) + "; this version reads 1");
+        root_.finish();
         read_what_is_found();
         if (auto styles = root_.table("style")) {
             sheet_.styles = read_styles(*styles, values_);

@@ -227,16 +227,23 @@ TypedValue ExpressionBuilder::call(const SyntaxNode& node, std::span<const Typed
     return function->build(*this, {token.offset, arguments});
 }
 
+bool ExpressionBuilder::is_bright(const std::array<float, 3>& color) {
+    return *std::max_element(color.begin(), color.end()) > 1;
+}
+
 void ExpressionBuilder::remark_bright(const TypedValue& color) {
     std::vector<std::array<ExpressionGraph::Index, 3>> ways{color.parts};
     constexpr std::size_t kMostWays = 64;
     for (std::size_t i = 0; i < ways.size() && i < kMostWays; ++i) {
         const auto parts = ways[i];
+        for (const BrightStop& stop : bright_stops_) {
+            if (stop.ramp == parts) remarks_.add(stop.value);
+        }
         const auto all_of = [&](const auto& is) { return is(parts[0]) && is(parts[1]) && is(parts[2]); };
         if (all_of([&](auto part) { return graph_.is_constant(part); })) {
             const std::array<float, 3> value{graph_.constant_value(parts[0]), graph_.constant_value(parts[1]),
                                              graph_.constant_value(parts[2])};
-            if (std::any_of(value.begin(), value.end(), [](float part) { return part > 1; })) remarks_.add(value);
+            if (is_bright(value)) remarks_.add(value);
         } else if (all_of([&](auto part) {
                        const GraphNode& node = graph_.nodes()[part];
                        return node.kind == GraphNode::Kind::operation && node.operation == O::choose;
@@ -251,9 +258,6 @@ void ExpressionBuilder::remark_bright(const TypedValue& color) {
 
 TypedValue ExpressionBuilder::ramp(const Ramp& ramp, const TypedValue& x) {
     require_number(x, "where a ramp is looked at");
-    for (const RampStop& stop : ramp.stops) {
-        if (ramp.is_color && *std::max_element(stop.value.begin(), stop.value.end()) > 1) remarks_.add(stop.value);
-    }
     const TypedValue first = constant(ramp.stops.front().at), last = constant(ramp.stops.back().at);
     TypedValue place = x;
     if (ramp.outside != RampOutside::hold && ramp.stops.size() > 1) {
@@ -272,6 +276,9 @@ TypedValue ExpressionBuilder::ramp(const Ramp& ramp, const TypedValue& x) {
     for (std::size_t k = 0; k < 3; ++k) {
         result.parts[k] =
             k > 0 && !ramp.is_color ? result.parts[0] : graph_.look_up(O::ramp, place.parts[0], ramp_table(ramp, k));
+    }
+    for (const RampStop& stop : ramp.stops) {
+        if (ramp.is_color && is_bright(stop.value)) bright_stops_.push_back({result.parts, stop.value});
     }
     return result;
 }

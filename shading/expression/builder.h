@@ -99,6 +99,13 @@ class ExpressionBuilder {
     ValueRate highest_ = ValueRate::sample;
     const SyntaxTree* tree_ = nullptr;  ///< of that text
     ExpressionRemarks remarks_;
+    /// A stop of a ramp of colours with a component above 1, and what the ramp gives.
+    struct BrightStop {
+        std::array<ExpressionGraph::Index, 3> ramp;
+        std::array<float, 3> value;
+    };
+    std::vector<BrightStop> bright_stops_;
+    static bool is_bright(const std::array<float, 3>& color);
 };
 
 }  // namespace burin

@@ -124,6 +124,9 @@ TEST(StyledNotes, NameColoursThatAreProbablyMeantFrom0To255) {
                               "width = \"=rgb(1, 1, 0.5).r\""})
         EXPECT_EQ(notes_of_names("", right), Notes{}) << right;
     EXPECT_EQ(notes_of_names("", "", "[style.other]\ncolor = [120, 60, 30]"), Notes{});
+    EXPECT_EQ(
+        notes_of_names("", "color = '=ramp(\"r\", t) * 0.2'", "[ramp.r]\nstops = [[0, [4, 4, 4]], [1, [2, 2, 2]]]"),
+        Notes{});
 }
 
 TEST(StyledNotes, SayThatWobbleOfContoursJumps) {

@@ -175,6 +175,7 @@ TEST(SheetErrors, OfSetsAndNames) {
 
 TEST(SheetErrors, OfTheWholeSheet) {
     expect_mistakes("", {{"style_version = 2", "1:17", "this version reads 1"},
+                         {"style_version = 2\n[passes.first]\na = 1", "1:17", "this version reads 1"},
                          {"crease_angle = [40, 30]", "1:16", "the smaller one first"},
                          {"light = [0, 0, 0]", "1:9", "must be a direction"},
                          {"contours = \"round\"", "1:12", "must be one of"},
@@ -220,6 +221,9 @@ TEST(SheetErrors, SayWhatToDo) {
     expect_mistakes("", {{"[set]\nname = \"a\"\n[[set]]\nname = \"b\"", "3:1", "; each of several is written [[set]]"},
                          {"[[set]]\nname = \"a\"\nclasses = \"crease\"\nstyle = \"ink\"\n[styles.ink]\nwidth = 3",
                           "5:2", "unknown key 'styles'; did you mean 'style'?"}});
+    // Quotes within strings and comments are right.
+    for (const char* text : {"a = \"it\xE2\x80\x99s\"\na = \"it\xE2\x80\x99s\"", "a = 1 x  # it\xE2\x80\x99s"})
+        EXPECT_EQ(error_of(text).find("quotes are written"), std::string::npos) << text;
     const std::string select = "[style.ink]\n[[set]]\nname = \"a\"\nclasses = [\"crease\"]\nstyle = \"ink\"\nselect = ";
     expect_mistakes(select, {{"\"object == body\"", "6:21",
                               "unknown variable 'body'; names stand in double quotes: object == \"body\""}});
