@@ -317,6 +317,7 @@ class StrokeExplainer {
         to.taper = static_cast<double>(values.taper_at(sample, *chain));
         to.min_length = static_cast<double>(values.length_strength(sample.run, *chain));
         to.moved = static_cast<double>(values.moved_strength(sample.run, to.ink.offset_px));
+        to.ink.offset_px *= to_right(found_.runs.pieces[sample.piece].piece);  // as in the sheet
         const LinePiece& piece = found_.runs.pieces[sample.piece].piece;
         to.fade = piece.opacity / 255.0;
         to.seen = piece.transmission / 255.0;

@@ -133,12 +133,9 @@ class Across {
         if (is_behind) return piece < last ? piece + 1 : run.is_closed ? run.first : piece;
         return piece > run.first ? piece - 1 : run.is_closed ? last : piece;
     }
-    /// Where on a piece's two sides "away from the surface that ends there" is: 1 to the right of its way, -1 to the
-    /// left. Pieces of a line that fold back have that surface on the other side.
-    static double away(const LinePiece& piece) { return piece.occludes && !piece.front_on_left ? -1 : 1; }
     /// The way of a piece, turned away from the surface, or as seen from `own` if none ends at one of them.
     static glm::dvec2 away_across(const LinePiece& p, const LinePiece& own) {
-        const double side = own.occludes && p.occludes ? away(p) : away(own);
+        const auto side = static_cast<double>(to_right(own.occludes && p.occludes ? p : own));
         return glm::dvec2(p.from.y - p.to.y, p.to.x - p.from.x) * side;
     }
 
@@ -197,14 +194,14 @@ class Across {
         const LineRun& run = runs_.runs[run_number];
         const std::size_t other = beside(run, piece, is_end);
         const LinePiece& own_piece = runs_.pieces[piece].piece;
-        const double to_right = away(own_piece);
+        const auto side = static_cast<double>(to_right(own_piece));
         const Direction own = away_from(run, piece, around_px, own_piece);
-        if (other == piece) return to_right * own.strength * own.unit;
+        if (other == piece) return side * own.strength * own.unit;
         // Both are the same on either side of the joint, so that the moved line has no step there.
         const Direction beyond = away_from(run, other, around_px, own_piece);
         const Direction &first = is_end ? own : beyond, &second = is_end ? beyond : own;
         const glm::dvec2 sum = first.unit + second.unit;
-        const double square = glm::dot(sum, sum), strength = 0.5 * to_right * (first.strength + second.strength);
+        const double square = glm::dot(sum, sum), strength = 0.5 * side * (first.strength + second.strength);
         constexpr double kMostLonger = 2;
         if (square < 4 / (kMostLonger * kMostLonger))
             return strength * (square > 0 ? sum * (kMostLonger / std::sqrt(square)) : first.unit);

@@ -47,10 +47,6 @@ float tapered(double distance_px, double length_px, TaperShape shape) {
     }
 }
 
-/// Lines are moved away from the surface that ends there, else to the right: 1 where that is to the right, -1 to the
-/// left.
-float to_right(const LinePiece& piece) { return piece.occludes && !piece.front_on_left ? -1.0f : 1.0f; }
-
 /// 0 up to the first edge, 1 from the second on; equal edges are a threshold, which passes.
 float faded_in(double length_px, double low_px, double high_px) {
     if (length_px >= high_px) return 1;

@@ -86,6 +86,10 @@ struct NotNumbersOfStyle {
     std::array<glm::dvec2, kCount> places{};   ///< in pixels
 };
 
+/// Lines are moved away from the surface that ends there, else to the right: 1 where that is to the right of the
+/// piece's way, -1 to the left.
+inline float to_right(const LinePiece& piece) { return piece.occludes && !piece.front_on_left ? -1.0f : 1.0f; }
+
 /// StrokeValues evaluates one style for stretches of lines. One thread uses it; buffers are used again.
 class StrokeValues {
   public:

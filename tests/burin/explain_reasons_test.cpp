@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/burin/shapes.h"
@@ -153,6 +154,30 @@ const View kView{.width = 160, .height = 120};
 
 std::string sheet_of(const std::string& set, const std::string& style) {
     return "[[set]]\nname = \"a\"\nclasses = [\"silhouette\"]\nstyle = \"ink\"\n" + set + "\n[style.ink]\n" + style;
+}
+
+/// The rim of a plate is one line, with the plate on its right where it is an outline.
+TEST(ExplainReasons, OffsetsAreThoseOfTheSheet) {
+    const View view{.width = 120, .height = 90};
+    Scene scene = styled(
+        "[camera]\neye = [3, 2.5, 6]\nfov = 30\n[[object]]\nname = \"plate\"\n"
+        "shape = \"cylinder\"\nradius = 2\nheight = 0.15\n",
+        "[[set]]\nname = \"shore\"\nclasses = [\"silhouette\"]\nstyle = \"shore\"\n"
+        "[[set]]\nname = \"edges\"\nclasses = [\"crease\"]\nstyle = \"edge\"\n"
+        "[style.shore]\nwidth = 1\noffset = 4\n[style.edge]\nwidth = 0\n");
+    const Picture picture = scene.render(view, {.layers = "lines"});
+    const std::span<const std::uint16_t> halves = picture.channel<std::uint16_t>("lines.A");
+    int told = 0;
+    for (std::size_t i = 0; i < halves.size(); i += 3) {
+        if (number_of(halves[i]) < 0.3) continue;
+        const int x = static_cast<int>(i % 120), y = static_cast<int>(i / 120);
+        const Json strokes = Json::parse(scene.explain(x, y, view, "json"))["strokes"];
+        for (const Json& stroke : strokes) {
+            EXPECT_EQ(stroke["offset"]["value"], 4) << x << "," << y;
+            ++told;
+        }
+    }
+    EXPECT_GT(told, 30);
 }
 
 TEST(ExplainReasons, LinesWithoutInkHaveAReason) {
