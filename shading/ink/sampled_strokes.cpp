@@ -125,7 +125,7 @@ class Across {
 
   private:
     static constexpr double kLeastAroundPx = 1, kMostAroundPx = 8;
-    static constexpr int kMostPieces = 256;  // to walk over from a short one
+    static constexpr int kMostPieces = 256;  // that a walk passes
 
     /// The piece before or behind one in its run, or the same at an end.
     static std::size_t beside(const LineRun& run, std::size_t piece, bool is_behind) {
@@ -133,19 +133,22 @@ class Across {
         if (is_behind) return piece < last ? piece + 1 : run.is_closed ? run.first : piece;
         return piece > run.first ? piece - 1 : run.is_closed ? last : piece;
     }
-    /// The way of a piece, turned away from the surface, or as seen from `own` if none ends at one of them.
+    /// A vector across a piece and as long as it is, to the side away from the surface that ends at the piece. If no
+    /// surface ends at it, or none at `own`, it is the side that is away from the surface of `own`.
     static glm::dvec2 away_across(const LinePiece& p, const LinePiece& own) {
         const auto side = static_cast<double>(to_right(own.occludes && p.occludes ? p : own));
         return glm::dvec2(p.from.y - p.to.y, p.to.x - p.from.x) * side;
     }
 
-    /// What a run is like around the middle of a piece.
+    /// What walks along a run, from the middle of a piece to either side, have passed.
     struct Around {
-        glm::dvec2 sum{0.0};  // of its pieces' ways, turned away from the surface
-        double length_px = 0;
-        double turn = 0, turns = 0;  // from first to last; and all turns, whichever way
+        glm::dvec2 sum{0.0};   // of away_across() of the pieces
+        double length_px = 0;  // of the pieces
+        double turn = 0;       // radians by which the line turns in all: turns to the left and to the right cancel
+        double turns = 0;      // the same, but each turn counts by its size
     };
-    /// Adds what lies so far along a run to one side.
+    /// Walks `around_px` pixels along a run, from the middle of a piece to one side, and adds what it passes to
+    /// `found`.
     void look_along(const LineRun& run, std::size_t piece, bool is_behind, double around_px, const LinePiece& own,
                     Around& found) const {
         std::size_t at = piece;
@@ -170,11 +173,13 @@ class Across {
             at = next;
         }
     }
-    /// The direction away from the surface across a piece, or across what is around it where the line runs to and fro.
+    /// A direction in which a line is moved.
     struct Direction {
         glm::dvec2 unit;
-        double strength;  // less than 1 where the line turns back on itself: there is no such direction
+        double strength;  // share of the offset; less than 1 where the line turns back on itself and has no direction
     };
+    /// The direction across a piece, away from the surface. Where the line runs to and fro, it is the mean over
+    /// `around_px` to either side.
     Direction away_from(const LineRun& run, std::size_t piece, double around_px, const LinePiece& own) const {
         const glm::dvec2 across = away_across(runs_.pieces[piece].piece, own);
         const auto unit = [](glm::dvec2 v) { return v / std::max(glm::length(v), 1e-300); };

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "image/half.h"
 #include "tests/burin/shapes.h"
 
 namespace burin::test::explain_reasons_test {
@@ -86,12 +87,6 @@ TEST(ExplainReasons, HalosTakeWhatStrokesShow) {
 }
 
 /// What strokes show is what a picture has of them.
-/// Of half precision, for values of 0 to 1.
-double number_of(std::uint16_t bits) {
-    const int exponent = bits >> 10;
-    return exponent == 0 ? std::ldexp(bits, -24) : std::ldexp((bits & 1023) + 1024, exponent - 25);
-}
-
 TEST(ExplainReasons, WhatShowsIsInThePicture) {
     Scene scene = styled(kBars, kHalos);
     const Picture picture = scene.render(kBarsView, {.layers = "lines"});
@@ -106,7 +101,10 @@ TEST(ExplainReasons, WhatShowsIsInThePicture) {
                 if (stroke["erased"] > 0) ++erased;
                 if (stroke["erased"] > 0 && stroke["erased"] < stroke["covers"]) ++partly;
             }
-            EXPECT_NEAR(shows, number_of(halves[static_cast<std::size_t>(y) * 600 + static_cast<std::size_t>(x)]), 2e-3)
+            EXPECT_NEAR(shows,
+                        static_cast<double>(
+                            float_from_half(halves[static_cast<std::size_t>(y) * 600 + static_cast<std::size_t>(x)])),
+                        2e-3)
                 << x << "," << y;
         }
     }
@@ -127,7 +125,7 @@ TEST(ExplainReasons, WhatShowsIsInThePictureWhereLinesBend) {
     const std::span<const std::uint16_t> halves = picture.channel<std::uint16_t>("lines.A");
     int inked = 0;
     for (std::size_t i = 0; i < halves.size(); i += 7) {
-        const double alpha = number_of(halves[i]);
+        const double alpha = static_cast<double>(float_from_half(halves[i]));
         if (alpha < 0.05) continue;
         const int x = static_cast<int>(i % 120), y = static_cast<int>(i / 120);
         double shows = 0;
@@ -169,7 +167,7 @@ TEST(ExplainReasons, OffsetsAreThoseOfTheSheet) {
     const std::span<const std::uint16_t> halves = picture.channel<std::uint16_t>("lines.A");
     int told = 0;
     for (std::size_t i = 0; i < halves.size(); i += 3) {
-        if (number_of(halves[i]) < 0.3) continue;
+        if (static_cast<double>(float_from_half(halves[i])) < 0.3) continue;
         const int x = static_cast<int>(i % 120), y = static_cast<int>(i / 120);
         const Json strokes = Json::parse(scene.explain(x, y, view, "json"))["strokes"];
         for (const Json& stroke : strokes) {
