@@ -16,7 +16,7 @@ namespace burin {
 struct UndrawnLine : ExplainedLine {
     std::string set, style;           ///< that takes it; empty: none does
     std::vector<RefusedSet> refused;  ///< the sets that do not, if none does
-    std::string reason;               ///< the first one why there is no ink of it
+    std::string reason;               ///< why it leaves no ink: the first one, in the order of work
     double distance_px = 0;           ///< from the middle of the pixel
     bool is_asked = true;             ///< some set asks for its class
 };
@@ -28,10 +28,11 @@ struct DrawnLines {
     const InkedLines& inked;
 };
 
-/// The lines that pass a pixel within two pixels, or within half of their width, and of which no ink is in it: those
-/// that sets take first, hidden ones of classes that no set asks for last, else visible ones first, then the nearest.
-/// It looks for lines of all classes, behind any number of surfaces. `inked`: the numbers of sets, and of the runs that
-/// these have drawn in the pixel.
+/// Finds lines of all classes, behind any number of surfaces, that pass the middle of a pixel within two pixels, or
+/// within half of their width, and leave no ink in it. Lines that some set takes come first, hidden lines whose class
+/// no set asks for come last, and the other ones between them; within each group those with the fewest surfaces in
+/// front come first, and of these the nearest. `inked`: pairs of a set and a run, by number, that have ink in the
+/// pixel; they are left out.
 std::vector<UndrawnLine> undrawn_lines(const Frame& frame, const DrawnLines& drawn, int x, int y,
                                        const std::set<std::pair<std::uint32_t, std::uint32_t>>& inked, int threads);
 
